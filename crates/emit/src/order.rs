@@ -22,7 +22,7 @@ pub(crate) fn is_large(f: &Function) -> bool {
 /// The steps of a function's body for a block: as they are, or in another order if values wait a quarter less in it.
 pub(crate) fn for_blocks(f: &Function) -> Vec<Step> {
     let body = &f.body;
-    // What runs over several lines of routines stands in front.
+    // Sines, cosines and angles stay in front, with what they read.
     let head =
         body.iter().rposition(|s| matches!(s, Step::Pairs(_) | Step::Atan2 { .. })).map_or(0, |k| k + 1);
     let steps: Vec<&Step> = body[head..].iter().filter(|s| !matches!(s, Step::Break)).collect();

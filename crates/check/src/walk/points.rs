@@ -202,16 +202,8 @@ fn axis_of_frame(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertio
                 _ => false,
             };
             if is_it {
-                let pair = |(d, wanted): (&Defined, Expr)| Pair {
-                    place: None,
-                    span: d.span.clone(),
-                    printed: Some(d.printed.clone()),
-                    value: d.value,
-                    wanted,
-                    also: vec![],
-                };
                 let all = printed.iter().map(|p| p.1).zip(wanted);
-                return all.map(|(d, wanted)| equation(d, pair((d, wanted)))).collect();
+                return all.map(|(d, wanted)| equation(d, held(d, wanted))).collect();
             }
         }
     }
@@ -248,15 +240,20 @@ impl Walk<'_> {
 }
 
 fn assertion(d: &Defined, wanted: Expr, frame: &Meaning) -> Assertion {
-    let pair = Pair {
+    let about = About::Matrix(Meaning::Origin(Box::new(frame.clone())));
+    Assertion { about, ..equation(d, held(d, wanted)) }
+}
+
+/// A definition held against what it should be.
+fn held(d: &Defined, wanted: Expr) -> Pair {
+    Pair {
         place: None,
         span: d.span.clone(),
         printed: Some(d.printed.clone()),
         value: d.value,
         wanted,
         also: vec![],
-    };
-    Assertion { about: About::Matrix(Meaning::Origin(Box::new(frame.clone()))), ..equation(d, pair) }
+    }
 }
 
 /// The rest of a name and its axis: `xw`, `wx`, `p_{cx}`.
