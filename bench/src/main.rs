@@ -1,6 +1,7 @@
 //! Speed of what evaluates a pose, in units of six `sincos` calls of the C library timed in the same run; with the
 //! argument `inverse`, of what solves one, in units of `ik-geo`; with `arms`, of what solves one without a closed form; with
-//! `derivation` and `report`, the CPU time of deriving the models of every robot and of writing about it.
+//! `derivation` and `report`, the CPU time of deriving the models of every robot and of writing about it; with `descriptions`,
+//! that of reading a URDF.
 //!
 //! Prints one JSON object, here the unit in ns and a figure for each entry. `cargo xtask bench` makes tables of it.
 
@@ -20,6 +21,7 @@ extern crate ur5j_v4;
 mod arms;
 mod compiled;
 mod derivation;
+mod descriptions;
 mod inverse;
 mod jacobian;
 mod measure;
@@ -53,6 +55,7 @@ fn main() -> Result<()> {
         ["arms"] => return arms::run(false, random),
         ["arms", "--quick"] => return arms::run(true, random),
         ["derivation"] => return derivation::run(),
+        ["descriptions"] => return descriptions::run(),
         ["report", folder] => return report::run(folder.as_ref()),
         _ => anyhow::bail!("no such benchmark: {}", arguments.join(" ")),
     }

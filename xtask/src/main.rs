@@ -38,7 +38,7 @@ cargo xtask tidy [--rules | --sessions]
                                  program prints what its pages show
 cargo xtask index                the index of files, by what each says of itself
 cargo xtask surface              public items that nobody uses, by their names
-cargo xtask bench [--write | --quick] [evaluation] [dynamics] [inverse] [arms] [answers] [derivation] [report]
+cargo xtask bench [--write | --quick] [evaluation] [dynamics] [inverse] [arms] [answers] [derivation] [descriptions] [report]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time from start to a first answer, of
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; --write renews docs/performance.md, --quick takes fewer

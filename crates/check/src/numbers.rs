@@ -252,7 +252,7 @@ pub(super) fn unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
 fn simple_unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
     let degree = Expr::pi() / Expr::int(180);
     let part = |n: i64| Expr::int(1) / Expr::int(n);
-    let units: [(&str, Expr); 35] = [
+    let units: [(&str, Expr); 36] = [
         ("rad/s", Expr::int(1)),
         ("deg/s", degree),
         ("°/s", degree),
@@ -278,6 +278,7 @@ fn simple_unit_behind(text: &str) -> Option<(&str, Expr, u32)> {
         ("grados", degree),
         ("gradi", degree),
         ("graus", degree),
+        ("graden", degree),
         ("degrees", degree),
         ("degree", degree),
         ("degrés", degree),

@@ -3,6 +3,8 @@
 use super::displayed;
 use std::borrow::Cow;
 
+/// Where commas are those of numbers, there are so many for each point between digits.
+const COMMAS_A_POINT: usize = 6;
 /// The most blanks between a word and the number behind it.
 const MAX_BLANKS: usize = 3;
 
@@ -13,7 +15,7 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 9] = [
+    let of_prose: [fn(&str) -> Option<String>; 11] = [
         without_asides,
         apart_by_blanks,
         rates_by_primes,
@@ -21,6 +23,8 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         words_as_signs,
         commas_in_calls,
         names_behind,
+        conjunctions,
+        columns_by_words,
         torques_by_words,
         displayed::bracketed,
     ];
@@ -132,6 +136,64 @@ fn units_without_brackets(text: &str, is_program: bool) -> Option<String> {
     if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
+/// A text with a comma for the one letter that joins two values, `e = 0.1 m e g = 0.15 m`; nothing for other texts.
+fn conjunctions(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for word in [" e ", " y ", " i ", " a ", " u "] {
+        for (at, _) in text.match_indices(word) {
+            let line = text[..at].rsplit('\n').next().unwrap_or_default();
+            let value =
+                line.rsplit('=').next().map_or("", str::trim).trim_end_matches(['m', '°', 'c', ' ', '$']);
+            let is_value = line.contains('=') && value.parse::<f64>().is_ok();
+            let behind = text[at + word.len()..].trim_start_matches(['$', '\\']);
+            let name = behind.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}')));
+            let is_next =
+                name.is_some_and(|n| n > 0 && n < 16 && behind[n..].trim_start_matches(' ').starts_with('='));
+            if is_value && is_next {
+                bytes[at + 1] = b',';
+                is_any = true;
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with `J_2` for `column 2` and for `J(:,2)` before an `=`; nothing for other texts.
+fn columns_by_words(text: &str) -> Option<String> {
+    const WORDS: [&str; 10] = [
+        "column ", "spalte ", "colonne ", "columna ", "coluna ", "colonna ", "kolom ", "kolumna ",
+        "sloupec ", "j(:,",
+    ];
+    let lower = text.to_lowercase();
+    // Letters that change their length with their case would move what stands behind them.
+    if lower.len() != text.len() || !lower.contains("jacobi") {
+        return None;
+    }
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for word in WORDS {
+        for (at, _) in lower.match_indices(word) {
+            let rest = &lower[at + word.len()..];
+            let Some(number) = rest.chars().next().filter(|c| ('1'..='9').contains(c)) else { continue };
+            let close = usize::from(word.ends_with(','));
+            let behind = &rest[1..];
+            let is_closed = close == 0 || behind.starts_with(')');
+            let is_part = lower[..at].ends_with(char::is_alphanumeric);
+            let behind = behind.get(close..).unwrap_or_default();
+            if is_part || !is_closed || !behind.trim_start_matches([' ', '$', '*']).starts_with('=') {
+                continue;
+            }
+            let end = at + word.len() + 1 + close;
+            bytes[at..end].fill(b' ');
+            bytes[at..at + 2].copy_from_slice(b"J_");
+            bytes[at + 2] = number as u8;
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
 /// A text with `τ_2` for the words of `force 2 = 78 N` at the beginning of a line; nothing for other texts.
 fn torques_by_words(text: &str) -> Option<String> {
     const WORDS: [&str; 14] = [
@@ -195,19 +257,21 @@ fn pointed(text: &str) -> Option<String> {
     let mut commas = vec![];
     // `0,45 m` is a number.
     let mut has_unit = false;
+    // `Exercise 2.6` among numbers with commas.
+    let mut points = 0;
     for (k, b) in bytes.iter().enumerate() {
         if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
             continue;
         }
         match b {
-            b'.' => return None,
+            b'.' => points += 1,
             b',' => {
                 let start = (0..k).rev().take_while(|&i| is_digit(i)).last().unwrap_or(k);
                 let end = (k + 1..bytes.len()).take_while(|&i| is_digit(i)).last().unwrap_or(k);
                 let before = start.checked_sub(1).and_then(|i| bytes.get(i));
-                // `T_{0,6}`, `r(1,2)`, `1,2,3`
-                let is_index = matches!(before, Some(b'{' | b'_' | b','))
-                    || bytes.get(end + 1) == Some(&b',') && is_digit(end + 2);
+                // `T_{0,6}`, `r(1,2)`, `1,2,3`; `0.5,0.3`
+                let is_index = matches!(before, Some(b'{' | b'_' | b',' | b'.'))
+                    || matches!(bytes.get(end + 1), Some(b',' | b'.')) && is_digit(end + 2);
                 let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
                 if is_index || is_pair {
                     return None;
@@ -220,7 +284,7 @@ fn pointed(text: &str) -> Option<String> {
             _ => {}
         }
     }
-    if commas.len() < 3 && !has_unit {
+    if commas.len() < 3 && !has_unit || commas.len() < COMMAS_A_POINT * points {
         return None;
     }
     let mut bytes = text.as_bytes().to_vec();
@@ -289,9 +353,11 @@ fn alternatives_by_primes(text: &str) -> Option<String> {
 /// A text with the words that other languages have for a root, and with `dx/dt`, as formulas are written, byte for byte; nothing
 /// for other texts.
 fn words_as_signs(text: &str) -> Option<String> {
-    const WORDS: [(&str, &str); 7] = [
+    const WORDS: [(&str, &str); 9] = [
         ("racine(", "sqrt  ("),
         ("radice(", "sqrt  ("),
+        ("wortel(", "sqrt  ("),
+        ("raiz(", "sqrt("),
         ("Wurzel(", "sqrt  ("),
         ("wurzel(", "sqrt  ("),
         ("dx/dt", "xdot "),

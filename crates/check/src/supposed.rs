@@ -1,16 +1,19 @@
 //! What is said under a supposition, of another point, or of the other solution: it is refuted of the hand, or everywhere, and
 //! right, or not known to be wrong, as it is meant.
 
+use super::blamed::used;
 use super::facts::{About, Condition, Meaning, Unproved};
 use super::matrix::Matrix;
 use super::outcome::{Claim, Finding, Standing};
 use super::plan::{Plan, Walked};
 use super::recognised;
 use super::subject::Subject;
-use super::told_otherwise::{as_pose, is_told_otherwise, told_values};
-use super::walk::{Assertion, Pair, Piece, Spoken};
+use super::told_otherwise::{as_pose, is_told_otherwise, told_together, told_values};
+use super::unjudged::mentions;
+use super::walk::{Assertion, Defined, Pair, Piece, Spoken};
 use denavit::forward::Reference;
 use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Symbol, equal};
 
 /// So many bytes before a formula a supposition may stand.
@@ -26,6 +29,7 @@ pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> bool {
     let window = parts[parts.len().saturating_sub(2)..].join(" ");
     let joints = subject.joints();
     let told = told_values(&window, subject);
+    let together = told_together(text, pair.span.start, subject);
     let mut points = Points::new(61);
     let mut holds = |given: &[(Symbol, Expr)]| {
         let there = |e: Expr| e.substitute(|s| given.iter().find(|g| g.0 == s).map(|g| g.1));
@@ -38,6 +42,7 @@ pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> bool {
             && equal(value, wanted).is_equal()
     };
     !told.is_empty() && (told.iter().any(|t| holds(&[*t])) || told.len() > 1 && holds(&told))
+        || together.iter().any(|t| holds(&[*t]))
 }
 
 /// Takes back what is refuted of the hand and right of another point that the words name, and values of another solution.
@@ -67,6 +72,7 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
         } else if is_of_other_solution(walked, claims, k)
             || is_made_of_others(text, assertion)
             || is_told_otherwise(text, assertion, subject)
+            || is_of_own_point(text, walked, k)
         {
             for entry in claims[k].entries.iter_mut().filter(|e| e.finding.standing() == Standing::Wrong) {
                 entry.finding = Finding::Undecided { why: Unproved::Unsupported };
@@ -153,6 +159,20 @@ fn is_of_other_solution(walked: &Walked, claims: &[Claim], k: usize) -> bool {
         .filter_map(|i| joint(&walked.assertions[i]))
         .filter(|o| o.0 == of)
         .any(|(_, others)| own.iter().all(|a| others.iter().any(|b| is_other(*a, *b))))
+}
+
+/// True for an equation between coordinates of a point that the document names itself, `h_x² + h_y² + h_z² = …`: where it does not
+/// follow, it may be the formula of one of them that is wrong.
+fn is_of_own_point(text: &str, walked: &Walked, k: usize) -> bool {
+    let source = text.get(walked.assertions[k].span.clone()).unwrap_or_default();
+    let left = source.split('=').next().unwrap_or_default();
+    let is_coordinate = |d: &&Defined| {
+        let name = plain_name(&d.name);
+        let stem = name.trim_end_matches(['x', 'y', 'z']).trim_end_matches('_');
+        stem.len() < name.len() && stem.chars().count() == 1 && !d.by_custom && mentions(left, &d.name)
+    };
+    matches!(walked.assertions[k].about, About::Equation)
+        && used(text, walked, k).into_iter().filter(is_coordinate).count() > 1
 }
 
 /// True for a bare letter for a product of other matrices with a transpose or an inverse among them: `R = (R_03)^T R_06`.

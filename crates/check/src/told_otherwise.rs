@@ -1,6 +1,8 @@
 //! What is refuted by the usual reading of its names, where the words before it give them another: entries of another matrix, a
 //! supposition on the line before, a moment that is nowhere said, a pose that is numbered as its configuration is.
 
+use super::facts::About;
+use super::lexis::read;
 use super::numbers::{self, Answer};
 use super::outcome::{Finding, Standing};
 use super::subject::Subject;
@@ -10,6 +12,10 @@ use denavit_symbolic::{Expr, Symbol, equal};
 
 /// So many bytes before a formula its letters may be told.
 const BEFORE: usize = 700;
+/// So many bytes before a formula joints may be told to hang together; so many equations are looked at, no longer than this.
+const TOGETHER: usize = 6_000;
+const MOST_EQUATIONS: usize = 200;
+const LONGEST: usize = 60;
 /// No more values are looked at.
 const MOST: usize = 8;
 
@@ -55,16 +61,61 @@ fn is_of_entries_elsewhere(text: &str, assertion: &Assertion, subject: &Subject)
 }
 
 /// Whether what a joint, or a sum of joints, is said to be stands right behind words that fix a joint: `When θ_2 = 0 only the sum
-/// is determined:`.
+/// is determined:`; a sum in the same sentence, `with θ_5 = 0 we have θ_4 + θ_6 = …`; or anything where joints hang together.
 fn is_under_supposition(text: &str, assertion: &Assertion, subject: &Subject) -> bool {
-    if !matches!(assertion.spoken, Some(Spoken::Joint { .. })) {
-        return false;
+    let is_of_joints = matches!(assertion.spoken, Some(Spoken::Joint { .. }));
+    if (is_of_joints || assertion.about == About::Equation)
+        && !told_together(text, assertion.span.start, subject).is_empty()
+    {
+        return true;
     }
+    let Some(Spoken::Joint { of, .. }) = &assertion.spoken else { return false };
     let window = before(text, assertion.span.start, BEFORE);
     let window = window.trim_end_matches([' ', '\n', '\r', '\t', '*', '-', '$', '•', '&', '[', '\\']);
-    let Some(sentence) = window.strip_suffix(':') else { return false };
+    let sentence = match window.strip_suffix(':') {
+        Some(sentence) => sentence,
+        None if of.as_symbol().is_none() => window,
+        None => return false,
+    };
     let sentence = sentence.rsplit(['\n', '.']).next().unwrap_or_default();
     !told_values(sentence, subject).is_empty()
+}
+
+/// The joints that words before a place make functions of others, as a linkage does: `q4 = -(q2 + q3)`.
+pub(super) fn told_together(text: &str, at: usize, subject: &Subject) -> Vec<(Symbol, Expr)> {
+    let window = before(text, at, TOGETHER);
+    let (names, joints) = (&subject.vocabulary(), subject.joints());
+    let mut told: Vec<(Symbol, Expr)> = vec![];
+    for (at, _) in window.rmatch_indices('=').take(MOST_EQUATIONS) {
+        let left = window[..at].trim_end_matches([' ', '$', '&', '*']);
+        let name = left.rsplit([' ', '$', '(', ',', '\n', '*', ':']).next().unwrap_or_default();
+        let Some(joint) = names.lookup(&plain_name(name)).filter(|e| joints.contains(e)) else { continue };
+        let value = &window[at + 1..];
+        let end = value.find(['\n', '$', ';', ',', ':', '=']).unwrap_or(value.len());
+        let value = value[..end].split(". ").next().unwrap_or_default().trim_end_matches(['.', ' ']);
+        if value.is_empty() || value.len() > LONGEST {
+            continue;
+        }
+        let Ok(syntax) = read(value, &(0..value.len()), names) else { continue };
+        let value = syntax.value();
+        let of: Vec<Expr> = value.symbols().iter().map(|s| (*s).into()).collect();
+        // A step of each changes it by a number.
+        let step = |by: Expr| {
+            value.substitute(|s| by.as_symbol().filter(|b| *b == s).map(|_| by + Expr::int(1))) - value
+        };
+        let at_zero = |e: Expr| e.substitute(|_| Some(Expr::int(0)));
+        let is_sum =
+            || of.iter().all(|s| joints.contains(s) && equal(step(*s), at_zero(step(*s))).is_equal());
+        if let Some(symbol) = joint.as_symbol()
+            && !of.is_empty()
+            && !of.contains(&joint)
+            && is_sum()
+            && told.iter().all(|t| t.0 != symbol)
+        {
+            told.push((symbol, value));
+        }
+    }
+    told
 }
 
 /// Whether torques differ by a moment alone, a letter that the text has beside its forces.

@@ -28,16 +28,34 @@ pub extern "C" fn answer() -> usize {
     exchange(crate::answer)
 }
 
-/// The same for what is derived, whose code is loaded when it is first needed.
+/// The same for solutions of poses; the code of this one and of those below is loaded when it is first needed.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_inverse() -> usize {
+    exchange(crate::answer_inverse)
+}
+
+/// The same for what is derived.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer_more() -> usize {
     exchange(crate::answer_more)
 }
 
-/// The same for documents and source code, whose code is loaded when one is asked for.
+/// The same for descriptions that others wrote.
 #[unsafe(no_mangle)]
-pub extern "C" fn answer_documents() -> usize {
-    exchange(crate::answer_documents)
+pub extern "C" fn answer_read() -> usize {
+    exchange(crate::answer_read)
+}
+
+/// The same for reports and source code.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_written() -> usize {
+    exchange(crate::answer_written)
+}
+
+/// The same for documents that are checked.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_check() -> usize {
+    exchange(crate::answer_check)
 }
 
 fn exchange(answer: impl FnOnce(&str) -> String) -> usize {

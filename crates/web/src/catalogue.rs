@@ -13,16 +13,41 @@ use denavit_report::words::Geometry as _;
 use denavit_wire::finding::Finding;
 use serde::{Deserialize, Serialize};
 
-/// A text that holds a robot.
+/// A robot by its name, or the text of a robot file.
 #[derive(Deserialize)]
 pub struct Open {
     text: String,
-    kind: String,
+    kind: OwnKind,
+}
+
+/// Texts that need nothing but themselves to be read.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum OwnKind {
+    Robot,
+    Toml,
+}
+
+/// A text with a table, or a program that makes a robot.
+#[derive(Deserialize)]
+pub struct Foreign {
+    text: String,
+    kind: ForeignKind,
     convention: Option<String>,
     degrees: Option<bool>,
     millimetres: Option<bool>,
     /// Which of several tables, from 1.
     table: Option<usize>,
+}
+
+/// What a text is; `any` where that has to be found out.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum ForeignKind {
+    Markdown,
+    Csv,
+    Latex,
+    Any,
 }
 
 /// The cells of a text, and what is to be said of it.
@@ -42,27 +67,36 @@ pub struct Converted {
     words: String,
 }
 
-/// Reads a robot: its cells, and what is to be said of the text.
+/// A robot of the catalogue, or of a robot file: its cells, and what is to be said of it.
 ///
 /// # Errors
-/// If there is no such robot in the catalogue, no such kind of text, or no such convention.
+/// If there is no such robot in the catalogue.
 pub fn open(open: &Open) -> Result<Opened, Refusal> {
-    let text = match open.kind.as_str() {
-        "robot" => catalogue::text(&open.text)
-            .ok_or_else(|| Refusal::new(format!("no robot `{}` in the catalogue", open.text)))?,
-        _ => open.text.as_str(),
-    };
-    let kinds: &[TableKind] = match open.kind.as_str() {
-        "robot" | "toml" => return Ok(robot_file(text)),
-        "markdown" => &[TableKind::Markdown],
-        "csv" => &[TableKind::Csv],
-        "latex" => &[TableKind::Latex],
-        "any" => &[TableKind::Markdown, TableKind::Latex, TableKind::Csv],
-        other => return Err(Refusal::new(format!("texts of the kind `{other}` are not known"))),
-    };
-    if open.kind == "any" && text.lines().any(|line| line.trim_start().starts_with("[[joints]]")) {
-        return Ok(robot_file(text));
+    match open.kind {
+        OwnKind::Toml => Ok(robot_file(&open.text)),
+        OwnKind::Robot => {
+            let text = catalogue::text(&open.text);
+            text.map(robot_file)
+                .ok_or_else(|| Refusal::new(format!("no robot `{}` in the catalogue", open.text)))
+        }
     }
+}
+
+/// Reads a text with a robot in it: its cells, and what is to be said of it.
+///
+/// # Errors
+/// If there is no such convention.
+pub fn read(open: &Foreign) -> Result<Opened, Refusal> {
+    let text = open.text.as_str();
+    let kinds: &[TableKind] = match open.kind {
+        ForeignKind::Markdown => &[TableKind::Markdown],
+        ForeignKind::Csv => &[TableKind::Csv],
+        ForeignKind::Latex => &[TableKind::Latex],
+        ForeignKind::Any if text.lines().any(|line| line.trim_start().starts_with("[[joints]]")) => {
+            return Ok(robot_file(text));
+        }
+        ForeignKind::Any => &[TableKind::Markdown, TableKind::Latex, TableKind::Csv],
+    };
     let options = TableOptions {
         convention: open.convention.as_deref().map(convention).transpose()?,
         angles_in_degrees: open.degrees,

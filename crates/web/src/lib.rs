@@ -1,12 +1,13 @@
 //! The engine of the page: requests and answers as JSON, one robot at a time.
 //!
-//! A page holds several engines; each has its robot, set by `edit`. [`answer`], [`answer_more`] and [`answer_documents`] take
+//! A page holds several engines; each has its robot, set by `edit`. [`answer`] and its like take
 //! `{"op": …, "input": …}` and give the answer, or `{"error": …, "hint": …}`. What is asked and answered is written down
 //! in `page/src/engine/types.ts`. Lengths are metres, angles radians, matrices rows of rows. Nothing is computed here:
 //! the crates `denavit` and `denavit-report` do.
 
 mod border;
 mod catalogue;
+mod checking;
 mod definitions;
 mod documents;
 mod dropped;
@@ -57,12 +58,18 @@ enum Request {
     Convert { to: String },
     Scene { q: Vec<f64> },
     Ghost { q: Vec<f64> },
-    Solve(solve::Wish),
     Orientations {},
     Angles { pose: Vec<Vec<f64>>, set: String },
     Pose { xyz: [f64; 3], set: String, values: Vec<f64> },
     Jacobian { q: Vec<f64>, frame: String },
     Hold { q: Vec<f64> },
+}
+
+/// What can be asked about poses.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum InverseRequest {
+    Solve(solve::Wish),
 }
 
 /// What can be asked for that is derived first.
@@ -77,15 +84,28 @@ enum MoreRequest {
     Fall(falling::Wish),
 }
 
-/// What can be asked about documents, source code, and descriptions of trees.
+/// What can be read: tables out of texts, and descriptions of trees.
 #[derive(Deserialize)]
 #[serde(tag = "op", content = "input", rename_all = "camelCase")]
-enum DocumentRequest {
-    Check { text: String, name: String },
+enum ReadRequest {
+    Read(catalogue::Foreign),
+    Tree(tree::Wanted),
+}
+
+/// What can be written.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum WrittenRequest {
     Report { format: String, language: String, q: Vec<f64> },
     Code { language: String, name: Option<String> },
     Figure(documents::Picture),
-    Tree(tree::Wanted),
+}
+
+/// What can be asked about documents.
+#[derive(Deserialize)]
+#[serde(tag = "op", content = "input", rename_all = "camelCase")]
+enum CheckRequest {
+    Check { text: String, name: String },
 }
 
 /// A robot file as it is written.
@@ -104,12 +124,18 @@ pub fn answer(request: &str) -> String {
         Request::Convert { to } => told(catalogue::convert(session.robot()?, &to)),
         Request::Scene { q } => told(scene::scene(session.robot()?, &q)),
         Request::Ghost { q } => told(scene::ghost(session.robot()?, &q)),
-        Request::Solve(wish) => told(solve::solve(session.robot()?, &wish)),
         Request::Orientations {} => told(Ok(orientation::sets())),
         Request::Angles { pose, set } => told(orientation::angles(&pose, &set)),
         Request::Pose { xyz, set, values } => told(orientation::pose(xyz, &set, &values)),
         Request::Jacobian { q, frame } => velocity::jacobian(session.robot()?, &q, &frame),
         Request::Hold { q } => told(falling::hold(session.robot()?, &q)),
+    })
+}
+
+/// Answers a request for solutions of a pose.
+pub fn answer_inverse(request: &str) -> String {
+    answered(request, |session, request| match request {
+        InverseRequest::Solve(wish) => told(solve::solve(session.robot()?, &wish)),
     })
 }
 
@@ -125,16 +151,29 @@ pub fn answer_more(request: &str) -> String {
     })
 }
 
-/// Answers a request about documents, source code, or a description of a tree.
-pub fn answer_documents(request: &str) -> String {
+/// Answers a request about a description that somebody else wrote.
+pub fn answer_read(request: &str) -> String {
+    answered(request, |_, request| match request {
+        ReadRequest::Read(text) => told(catalogue::read(&text)),
+        ReadRequest::Tree(wanted) => told(tree::tree(&wanted)),
+    })
+}
+
+/// Answers a request for a report, source code, or a figure.
+pub fn answer_written(request: &str) -> String {
     answered(request, |session, request| match request {
-        DocumentRequest::Check { text, name } => told(documents::check(session.robot()?, &text, &name)),
-        DocumentRequest::Report { format, language, q } => {
+        WrittenRequest::Report { format, language, q } => {
             told(documents::report(session.robot()?, &format, &language, &q))
         }
-        DocumentRequest::Code { language, name } => told(documents::code(session.robot()?, &language, name)),
-        DocumentRequest::Figure(picture) => told(documents::figure(session.robot()?, &picture)),
-        DocumentRequest::Tree(wanted) => told(tree::tree(&wanted)),
+        WrittenRequest::Code { language, name } => told(documents::code(session.robot()?, &language, name)),
+        WrittenRequest::Figure(picture) => told(documents::figure(session.robot()?, &picture)),
+    })
+}
+
+/// Answers a request about a document.
+pub fn answer_check(request: &str) -> String {
+    answered(request, |session, request| match request {
+        CheckRequest::Check { text, name } => told(checking::check(session.robot()?, &text, &name)),
     })
 }
 

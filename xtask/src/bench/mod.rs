@@ -4,6 +4,7 @@ mod answers;
 mod arms;
 mod closed_form;
 mod derivation;
+mod descriptions;
 mod dynamics;
 mod evaluation;
 mod inverse;
@@ -28,6 +29,7 @@ const PARTS: &[Part] = &[
     ("arms", "Every arm", arms::run),
     ("answers", "First answers", |_| answers::run()),
     ("derivation", "Derivation", |_| derivation::run()),
+    ("descriptions", "Descriptions", |_| descriptions::run()),
     ("report", "Reports", |_| report::run()),
 ];
 /// What stands behind a figure that is above its limit.

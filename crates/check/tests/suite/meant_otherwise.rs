@@ -70,3 +70,48 @@ fn a_moment_that_is_a_letter() {
     assert_ne!(standings(&text(&format!("{right} + m")), "\\tau_2"), [Standing::Wrong]);
     assert_eq!(standings(&text(&right.replace("c_{23}", "c_{2}")), "\\tau_2"), [Standing::Wrong]);
 }
+
+/// The same where the supposition stands in the sentence itself.
+#[test]
+fn a_sum_in_the_sentence_of_its_supposition() {
+    let text = |words: &str| {
+        format!("{WRIST}{words} $\\theta_1+\\theta_3 = \\operatorname{{atan2}}(r_{{21}}, r_{{22}})$.\n")
+    };
+    let name = "\\theta_1+\\theta_3";
+    assert_ne!(standings(&text("The axes coincide; with $\\theta_2=0$ we have"), name), [Standing::Wrong]);
+    assert_eq!(standings(&text("For all poses we have"), name), [Standing::Wrong]);
+}
+
+/// A linkage makes a joint follow others: what holds then is right under that condition, and wrong without these words.
+#[test]
+fn joints_that_hang_together() {
+    let text = |words: &str, pz: &str| {
+        format!(
+            "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | d1 | a1 | -90° |\n| 2 | q2 | 0 | a2 | 0 |\n\
+             | 3 | q3 | 0 | a3 | 0 |\n| 4 | q4 | 0 | a4 | 0 |\n\n{words}\n\npz = {pz}\n"
+        )
+    };
+    let linkage = "The linkage keeps the flange level: q4 = -(q2 + q3). Hence";
+    let right = "d1 - a2 sin q2 - a3 sin(q2 + q3)";
+    assert_eq!(standings(&text(linkage, right), "pz"), [Standing::Conditional]);
+    assert_eq!(standings(&text("The position:", right), "pz"), [Standing::Wrong]);
+    let wrong = "d1 - a2 sin q2 - a3 cos(q2 + q3)";
+    assert_eq!(standings(&text(linkage, wrong), "pz"), [Standing::Wrong]);
+}
+
+/// What follows from coordinates of a point of the document's own is not wrong by itself: one of these may be.
+#[test]
+fn an_equation_between_coordinates_of_an_own_point() {
+    let text = |hy: &str, square: &str| {
+        format!(
+            "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n| 2 | θ2 | 0 | a2 | 0 |\n\n\
+             The middle $h$ of the second link is at\n\n$h_x = a_1 c_1 + \\frac{{a_2}}{{2}} c_{{12}}$\n\n$h_y = {hy}$\n\n\
+             $h_x^2 + h_y^2 = {square}$\n"
+        )
+    };
+    let square = "a_1^2 + \\frac{a_2^2}{4} + a_1 a_2 c_2";
+    let name = "h_x^2 + h_y^2";
+    let right = "a_1 s_1 + \\frac{a_2}{2} s_{12}";
+    assert_eq!(standings(&text(right, square), name), [Standing::Equal]);
+    assert_ne!(standings(&text("a_1 s_1 - \\frac{a_2}{2} s_{12}", square), name), [Standing::Wrong]);
+}

@@ -370,3 +370,45 @@ fn the_determinant_of_a_wrist() {
     let found = (standing(""), standing("-"));
     assert!(found.0 == EQUAL && found.1 == WRONG || found.0 == WRONG && found.1 == EQUAL, "{found:?}");
 }
+
+const PLANAR: &str = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | L1 | 0 |\n| 2 | θ2 | 0 | L2 | 0 |\n\n";
+
+/// `column 2` and `J(:,2)` are columns of the Jacobian.
+#[test]
+fn columns_of_the_jacobian_by_words() {
+    let text = |left: &str, second: &str| {
+        format!(
+            "{PLANAR}The Jacobian of (x, y):\n\ncolumn 1 = (-L1 s1 - L2 s12, L1 c1 + L2 c12)\n\n{left} = ({second})\n"
+        )
+    };
+    for left in ["column 2", "J(:,2)"] {
+        expect(&text(left, "-L2 s12, L2 c12"), None, &[("J_1", EQUAL), ("J_2", EQUAL)]);
+        expect(&text(left, "-L2 s12, L2 s12"), None, &[("J_1", EQUAL), ("J_2", WRONG)]);
+    }
+}
+
+/// Commas of numbers beside a point in a heading, words of other languages, a letter that joins two values.
+#[test]
+fn values_in_other_languages() {
+    let text = |y: &str| {
+        format!(
+            "## Exercício 2.6\n\n{}\ncom L1 = 0,4 m e L2 = 0,3 m.\n\nCom θ1 = 30 graus e θ2 = 60 graus:\n\nx = 0,3464 m\n\ny = {y} m\n\n\
+             raiz(x² + y²) = 0,6083 m\n",
+            PLANAR.replace("(standard)", "(convenção clássica)")
+        )
+    };
+    expect(&text("0,5000"), None, &[("x", EQUAL), ("y", EQUAL)]);
+    expect(&text("0,5300"), None, &[("x", EQUAL), ("y", WRONG)]);
+}
+
+/// A sentence ends between two statements of one line.
+#[test]
+fn results_behind_the_sentence_of_their_configuration() {
+    let text = |y: &str| {
+        format!(
+            "{PLANAR}L1 = 220 mm, L2 = 160 mm. At θ2 = 140° the arm is folded.\n\nP1: θ1 = 45°, θ2 = 45°. x = 155.6 mm, y = {y} mm\n"
+        )
+    };
+    expect(&text("315.6"), None, &[("x", EQUAL), ("y", EQUAL)]);
+    expect(&text("351.6"), None, &[("x", EQUAL), ("y", WRONG)]);
+}

@@ -220,6 +220,11 @@ impl<'t> Reader<'t> {
                 Some(Kind::Semicolon | Kind::Arrow) => true,
                 // `θ1 = 20°: cos θ5 = 0.5`
                 Some(Kind::Colon) => related && self.begins_statement(next),
+                // `θ2 = 90°. x = 220 mm`
+                Some(Kind::Operator) if shown == "." => {
+                    let is_end = node.gap == Gap::None && next.first().is_some_and(|n| n.gap > Gap::None);
+                    related && is_end && self.begins_statement(next)
+                }
                 Some(Kind::Prose) if related && words::is_condition(prose_of(shown)) => false,
                 Some(Kind::Prose) => {
                     i == first || self.begins_statement(next) || words::is_link(prose_of(shown))

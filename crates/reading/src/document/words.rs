@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// Words that join or close statements: `x = a and y = b`, `x = a if …`.
 pub(super) fn is_link(word: &str) -> bool {
-    const LINKS: [&str; 34] = [
+    const LINKS: [&str; 44] = [
         "and",
         "or",
         "with",
@@ -41,6 +41,16 @@ pub(super) fn is_link(word: &str) -> bool {
         "y",
         "con",
         "because",
+        "com",
+        "onde",
+        "então",
+        "donde",
+        "entonces",
+        "dove",
+        "quindi",
+        "met",
+        "waarbij",
+        "dus",
     ];
     let word = word.trim_matches(|c: char| !c.is_alphanumeric());
     // A lone letter may be a name.
@@ -78,9 +88,9 @@ pub(super) fn is_greek(word: &str) -> bool {
 
 /// A unit of lengths, angles, times, forces, or a part of one: `m` and `s` of `m/s`.
 pub(super) fn is_unit(word: &str) -> bool {
-    const UNITS: [&str; 16] = [
-        "m", "mm", "cm", "rad", "deg", "grad", "Grad", "degrees", "grados", "degrés", "N", "kN", "kNm", "Nm",
-        "s", "°",
+    const UNITS: [&str; 19] = [
+        "m", "mm", "cm", "rad", "deg", "grad", "Grad", "degrees", "grados", "degrés", "graus", "gradi",
+        "graden", "N", "kN", "kNm", "Nm", "s", "°",
     ];
     UNITS.contains(&word)
 }

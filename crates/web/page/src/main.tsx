@@ -44,7 +44,7 @@ async function firstRobot(): Promise<void> {
       const answer = await fetch(new URL(given, document.baseURI));
       if (!answer.ok) throw new Error(`The robot file could not be fetched (${answer.status}).`);
       if (given.endsWith(".json")) await openServed((await answer.json()) as Bundle);
-      else openText(await answer.text(), given);
+      else await openText(await answer.text(), given);
     } catch (why) {
       said(why);
     }

@@ -1,17 +1,7 @@
-// How fast the page is: printed; a gate where nothing else runs (`cargo xtask page --timed`), at three times the budget.
+// How fast the page is.
 import assert from "node:assert/strict";
 import { pictureOf } from "./pixels.mjs";
-import { open, openRobot, scenario, tab, until } from "./support.mjs";
-
-/** All figures of a run. */
-export const FIGURES = [];
-
-function figure(words, value, unit, budget, isMost = true) {
-  FIGURES.push({ words, value, unit, budget });
-  console.log(`# ${words}: ${value.toFixed(value < 10 ? 2 : 0)} ${unit} (budget ${isMost ? "≤" : "≥"} ${budget} ${unit})`);
-  if (process.env.PAGE_FIGURES !== "gate") return;
-  assert.ok(isMost ? value <= 3 * budget : value >= budget / 3, `${words}: ${value} ${unit}`);
-}
+import { figure, open, openRobot, scenario, tab, until } from "./support.mjs";
 
 /** When the arm was first on the page, milliseconds from the navigation. */
 function firstFrame() {

@@ -1,7 +1,7 @@
 // Meshes of a description: each kind, where they stand, and what is said of those that are missing, too large, or none.
 import assert from "node:assert/strict";
 import { strToU8, zipSync } from "fflate";
-import { address, open, openRobot, saysInStatus, scenario, shared, tab, until } from "./support.mjs";
+import { address, figure, open, openRobot, saysInStatus, scenario, shared, tab, until } from "./support.mjs";
 
 const visual = (geometry, origin = "") => `<visual>${origin}<geometry>${geometry}</geometry></visual>`;
 const mesh = (file, more = "") => `<mesh filename="${file}" ${more}/>`;
@@ -42,12 +42,15 @@ const gltf = (uri) =>
     buffers: [{ byteLength: 36, uri }],
   });
 
+/** Drops files as a zip; how long it takes from then until all bodies are there, milliseconds. */
 async function drop(page, files) {
   const zip = zipSync(Object.fromEntries(Object.entries(files).map(([path, content]) => [path, typeof content === "string" ? strToU8(content) : new Uint8Array(content)])));
   const before = await page.evaluate(() => window.denavit.trees);
   const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.getByRole("button", { name: "Open", exact: true }).click()]);
+  const start = performance.now();
   await chooser.setFiles({ name: "robot.zip", mimeType: "application/zip", buffer: Buffer.from(zip) });
   await until(() => page.evaluate((n) => window.denavit.trees > n, before), "the bodies are there");
+  return performance.now() - start;
 }
 
 const box = (page) => page.evaluate(() => window.denavit.box());
@@ -130,7 +133,7 @@ function ball(rings) {
 }
 
 // As many links and triangles as the URDF of an arm with its meshes has; 2 s on a machine that does nothing else.
-scenario("a robot of 100 links with meshes of 200,000 triangles is opened soon", async (page) => {
+scenario("a robot of 100 links with meshes of 200,000 triangles is opened soon", { alone: true }, async (page) => {
   await openRobot(page, "scara");
   const mesh20k = ball(100);
   const links = Array.from({ length: 100 }, (_, k) => {
@@ -140,12 +143,9 @@ scenario("a robot of 100 links with meshes of 200,000 triangles is opened soon",
     return `<link name="l${k}">${look}</link>${joint}`;
   });
   const files = Object.fromEntries(Array.from({ length: 10 }, (_, k) => [`arm/meshes/m${10 * k}.stl`, mesh20k]));
-  const start = performance.now();
-  await drop(page, { "arm/urdf/arm.urdf": `<robot name="arm">${links.join("")}<link name="l100"/></robot>`, ...files });
-  const took = performance.now() - start;
+  const took = await drop(page, { "arm/urdf/arm.urdf": `<robot name="arm">${links.join("")}<link name="l100"/></robot>`, ...files });
   assert.equal(await page.evaluate(() => window.denavit.bodies), 10);
-  console.log(`opened in ${Math.round(took)} ms`);
-  assert.ok(took < 60_000, `${took} ms`);
+  figure("a robot of 100 links with 200,000 triangles is there", took, "ms", 2000);
 });
 
 // How Chromium says that XML is broken has a style that no page with this policy may have.

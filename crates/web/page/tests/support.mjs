@@ -72,7 +72,7 @@ export function scenario(name, options, body = options) {
     surroundings.on("response", (r) => r.status() >= 400 && say(`response: ${r.status()} ${r.url()}`));
     surroundings.on("requestfailed", (r) => {
       // A worker that is ended while it fetches a part has not failed, nor a page that is left, nor a tab before it has its icon.
-      const isLeft = leftBefore.get(r) !== left || /(derive\.wasm|documents\.wasm|icon\.svg)$/.test(r.url());
+      const isLeft = leftBefore.get(r) !== left || /((inverse|derive|read|write|check)\.wasm|icon\.svg)$/.test(r.url());
       const why = r.failure()?.errorText;
       const words = `failed: ${r.url()} ${why}`;
       if (why !== "net::ERR_ABORTED") say(words);
@@ -136,6 +136,15 @@ export async function status(page) {
 
 export async function saysInStatus(page, pattern) {
   await until(async () => pattern.test(await status(page)), async () => `the status line says ${pattern}, and not “${await status(page)}”`);
+}
+
+// Speed ------------------------------------------------------------------------------------------------------------
+
+/** How fast something is: printed; a gate where nothing else runs (`cargo xtask page --timed`), at three times the budget. */
+export function figure(words, value, unit, budget, isMost = true) {
+  console.log(`# ${words}: ${value.toFixed(value < 10 ? 2 : 0)} ${unit} (budget ${isMost ? "≤" : "≥"} ${budget} ${unit})`);
+  if (process.env.PAGE_FIGURES !== "gate") return;
+  assert.ok(isMost ? value <= 3 * budget : value >= budget / 3, `${words}: ${value} ${unit}`);
 }
 
 // The address ------------------------------------------------------------------------------------------------------

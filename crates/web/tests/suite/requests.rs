@@ -109,7 +109,7 @@ fn what_is_no_request_is_refused() {
 fn a_pasted_table_is_read_in_the_convention_that_is_said() {
     let table = "| j | alpha | a | theta | d |\n|---|---|---|---|---|\n| 1 | 0 | 0 | q1 | 0.4 |\n| 2 | -90° | 0.025 | q2 | 0 |\n";
     let open =
-        |convention: Value| told("open", json!({ "text": table, "kind": "any", "convention": convention }));
+        |convention: Value| told("read", json!({ "text": table, "kind": "any", "convention": convention }));
     assert_eq!(open("craig".into())["file"]["convention"], "craig");
     let without = open(Value::Null);
     assert!(without["file"].is_null(), "{without}");

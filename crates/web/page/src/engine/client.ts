@@ -59,6 +59,12 @@ export class Remote {
     });
   }
 
+  /** Starts the worker and what of the engine answers a request, before it is asked. */
+  prepare(op: Op): void {
+    this.#worker ??= this.#start();
+    this.#post({ prepare: op });
+  }
+
   /** Ends what runs and what waits, and begins again with the same robot. */
   cancel(): void {
     if (!this.busy) return;

@@ -2,9 +2,12 @@
 
 import type { Input, Op, Output, Refused } from "./types.ts";
 
-/** The parts of the engine: what is needed at once, what derives, and what reads and writes documents and source code. */
-export const PARTS = ["denavit.wasm", "derive.wasm", "documents.wasm"] as const;
-const ENTRIES = ["answer", "answer_more", "answer_documents"] as const;
+/**
+ * The parts of the engine: what is needed at once, what solves poses, what derives, what reads what others wrote, what writes reports
+ * and source code, and what checks documents. Each is loaded behind all before it.
+ */
+export const PARTS = ["denavit.wasm", "inverse.wasm", "derive.wasm", "read.wasm", "write.wasm", "check.wasm"] as const;
+const ENTRIES = ["answer", "answer_inverse", "answer_more", "answer_read", "answer_written", "answer_check"] as const;
 
 interface First extends WebAssembly.ModuleImports {
   memory: WebAssembly.Memory;
@@ -16,21 +19,23 @@ interface First extends WebAssembly.ModuleImports {
 }
 
 /** The part that answers a request, if it is not the first. */
-const LATER: Partial<Record<Op, 1 | 2>> = {
-  formulas: 1,
-  values: 1,
-  singular: 1,
-  workspace: 1,
-  path: 1,
-  fall: 1,
-  check: 2,
-  report: 2,
-  code: 2,
-  figure: 2,
-  tree: 2,
+const LATER: Partial<Record<Op, number>> = {
+  solve: 1,
+  formulas: 2,
+  values: 2,
+  singular: 2,
+  workspace: 2,
+  path: 2,
+  fall: 2,
+  read: 3,
+  tree: 3,
+  report: 4,
+  code: 4,
+  figure: 4,
+  check: 5,
 };
 
-export function partOf(op: Op): 0 | 1 | 2 {
+export function partOf(op: Op): number {
   return LATER[op] ?? 0;
 }
 

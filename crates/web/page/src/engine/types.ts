@@ -67,6 +67,12 @@ export interface Finding {
   cell?: string;
 }
 
+/** `open`, `read` */
+export interface Opened {
+  file: RobotFile | null;
+  findings: Finding[];
+}
+
 /** `catalogue` */
 export interface Listed {
   name: string;
@@ -436,7 +442,8 @@ export interface Held {
 /** Everything that can be asked, by name. */
 export interface Requests {
   catalogue: [Record<string, never>, { robots: Listed[] }];
-  open: [{ text: string; kind: "robot" | "toml" | "markdown" | "csv" | "latex" | "any"; convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number }, { file: RobotFile | null; findings: Finding[] }];
+  open: [{ text: string; kind: "robot" | "toml" }, Opened];
+  read: [{ text: string; kind: "markdown" | "csv" | "latex" | "any"; convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number }, Opened];
   edit: [{ file: RobotFile }, { robot: RobotModel | null; findings: Finding[] }];
   write: [{ file: RobotFile }, { text: string }];
   convert: [{ to: Convention }, { file: RobotFile; words: string; proved: boolean }];

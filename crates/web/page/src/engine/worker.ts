@@ -3,7 +3,7 @@
 import { EngineError, Instance, PARTS, partOf } from "./instance.ts";
 import type { Input, Op } from "./types.ts";
 
-export type ToWorker = { first: WebAssembly.Module; base: string } | { id: number; op: Op; input: Input<Op> };
+export type ToWorker = { first: WebAssembly.Module; base: string } | { prepare: Op } | { id: number; op: Op; input: Input<Op> };
 export type FromWorker = { id: number; milliseconds: number } & ({ answer: unknown } | { error: string; hint?: string });
 type Asked = Extract<ToWorker, { id: number }>;
 
@@ -19,17 +19,24 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     base = data.base;
     return;
   }
-  before = before.then(() => answer(data));
+  // A part that cannot be fetched is asked for again by the request that needs it, which says so.
+  before = before.then(() => ("prepare" in data ? prepared(data.prepare).catch(() => {}) : answer(data)));
 };
+
+/** Fetches and compiles what of the engine answers a request. */
+async function prepared(op: Op): Promise<void> {
+  if (!instance) return;
+  for (let next = instance.modules.length; next <= partOf(op); next += 1) {
+    instance.modules.push(await WebAssembly.compileStreaming(fetch(new URL(PARTS[next], base))));
+  }
+}
 
 async function answer({ id, op, input }: Asked): Promise<void> {
   let start = performance.now();
   let reply: { answer: unknown } | { error: string; hint?: string };
   try {
     if (!instance) throw new EngineError({ error: "the engine is not there yet" });
-    for (let next = instance.modules.length; next <= partOf(op); next += 1) {
-      instance.modules.push(await WebAssembly.compileStreaming(fetch(new URL(PARTS[next], base))));
-    }
+    await prepared(op);
     start = performance.now();
     reply = { answer: instance.call(op, input) };
   } catch (failure) {

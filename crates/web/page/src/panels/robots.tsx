@@ -1,7 +1,7 @@
 // Where a robot comes from: the catalogue, a file, a table pasted from a document. And where it goes: a file.
 
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
-import type { Convention, Finding, Input, Listed } from "../engine/types.ts";
+import type { Convention, Finding, Input, Listed, Output } from "../engine/types.ts";
 import { batch, effect, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
 import { flush } from "../table/cells.ts";
 import { CONVENTIONS } from "../table/convention.tsx";
@@ -22,16 +22,32 @@ type Part = "catalogue" | "text" | "tree";
 /** The dialog, if it is open, with what it begins with. */
 export const dialog = signal<{ part: Part; text?: string; name?: string; findings?: Finding[] } | null>(null);
 
-type OpenKind = Input<"open">["kind"];
+type ForeignKind = Input<"read">["kind"];
+type Kind = Input<"open">["kind"] | ForeignKind;
 
 /** A file larger than this is no robot description, bytes. */
 const MOST_BYTES = 2_000_000;
 /** A tree is written by programs, and larger, bytes. */
 const MOST_TREE_BYTES = 16 * 2 ** 20;
 
-/** Opens a text as a robot; says what was found if it is none. */
-function open(text: string, kind: OpenKind, options: { convention?: Convention; degrees?: boolean; millimetres?: boolean; table?: number } = {}): { opened: boolean; findings: Finding[] } {
-  const answer = engine().now.call("open", { text, kind, ...options });
+/** What became of a text: whether it is the robot now, and what was found. */
+interface Became {
+  opened: boolean;
+  findings: Finding[];
+}
+
+/** A robot of the catalogue or a robot file. */
+function openOwn(text: string, kind: Input<"open">["kind"]): Became {
+  return became(engine().now.call("open", { text, kind }));
+}
+
+/** A text of whatever kind as a robot. */
+async function open(text: string, kind: Kind, options: Omit<Input<"read">, "text" | "kind"> = {}): Promise<Became> {
+  if (kind === "toml" || kind === "robot") return openOwn(text, kind);
+  return became(await engine().files.call("read", { text, kind, ...options }));
+}
+
+function became(answer: Output<"open">): Became {
   // A robot file without a table, or one that can be read in several ways, is not shown in the place of the robot.
   const isTable = answer.file && answer.file.joints.length > 0 && CONVENTIONS.some((one) => one.value === answer.file?.convention);
   if (!answer.file || !isTable) return { opened: false, findings: answer.findings };
@@ -42,7 +58,7 @@ function open(text: string, kind: OpenKind, options: { convention?: Convention; 
 /** A robot of the catalogue, by name. */
 export function openListed(name: string): void {
   try {
-    const { opened, findings } = open(name, "robot");
+    const { opened, findings } = openOwn(name, "robot");
     if (!opened) said(new Error(findings[0]?.message ?? `There is no robot “${name}”.`));
   } catch (why) {
     said(why);
@@ -64,10 +80,10 @@ function treeIsTaken(taken: boolean): void {
 }
 
 /** A text with its file's name. Where it cannot be read the dialog opens with the text and what is wrong. */
-export function openText(text: string, name: string): void {
+export async function openText(text: string, name: string): Promise<void> {
   if (/\.(urdf|xacro|mjcf)$/i.test(name) || isTree(text)) return openTreeText(text, name);
   try {
-    const { opened, findings } = open(text, kindOf(name));
+    const { opened, findings } = await open(text, kindOf(name));
     if (opened) {
       batch(() => {
         dialog.value = null;
@@ -81,9 +97,9 @@ export function openText(text: string, name: string): void {
   }
 }
 
-function kindOf(name: string): OpenKind {
+function kindOf(name: string): Kind {
   const ending = /\.([a-z]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
-  const kinds: Record<string, OpenKind> = { toml: "toml", md: "markdown", markdown: "markdown", csv: "csv", tsv: "csv", tex: "latex" };
+  const kinds: Record<string, Kind> = { toml: "toml", md: "markdown", markdown: "markdown", csv: "csv", tsv: "csv", tex: "latex" };
   return Object.hasOwn(kinds, ending) ? kinds[ending] : "any";
 }
 
@@ -97,7 +113,7 @@ export async function openFiles(files: Lying[]): Promise<void> {
     if (only.size > (isTreeFile ? MOST_TREE_BYTES : MOST_BYTES)) {
       throw new Error(`${only.path} is larger than ${isTreeFile ? "16 MiB" : "2 MB"}: it is not a robot description.`);
     }
-    openText(new TextDecoder().decode(await only.read()), only.path);
+    await openText(new TextDecoder().decode(await only.read()), only.path);
   } catch (why) {
     said(why);
   }
@@ -277,7 +293,7 @@ function plain(text: string): string {
   return text.normalize("NFKD").replace(/\p{M}/gu, "").toLowerCase().replace(/[^a-z0-9]+/g, " ");
 }
 
-const KINDS: { value: OpenKind; label: string }[] = [
+const KINDS: { value: Kind; label: string }[] = [
   { value: "any", label: "Find out" },
   { value: "markdown", label: "Markdown table" },
   { value: "csv", label: "CSV" },
@@ -296,7 +312,7 @@ const OPTION = "choose one with --table:";
 
 function FromText({ text: first, name, findings: firstFindings }: { text: string; name: string; findings: Finding[] }) {
   const [text, setText] = useState(first);
-  const [kind, setKind] = useState<OpenKind>(name ? kindOf(name) : "any");
+  const [kind, setKind] = useState<Kind>(name ? kindOf(name) : "any");
   const [convention, setConvention] = useState<Convention | "">("");
   const [angles, setAngles] = useState<"" | "deg" | "rad">("");
   const [lengths, setLengths] = useState<"" | "mm" | "m">("");
@@ -312,10 +328,10 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
     if (tables) setAsksTable(true);
   }, [tables]);
 
-  const read = () => {
+  const read = async () => {
     if (kind === "any" && isTree(text)) return openTreeText(text, name || "pasted.urdf");
     try {
-      const answer = open(text, kind, {
+      const answer = await open(text, kind, {
         convention: convention || undefined,
         degrees: angles === "" ? undefined : angles === "deg",
         millimetres: lengths === "" ? undefined : lengths === "mm",
@@ -340,7 +356,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
       class="from-text"
       onSubmit={(event) => {
         event.preventDefault();
-        read();
+        void read();
       }}
     >
       <div class="row-of-buttons">
@@ -367,7 +383,7 @@ function FromText({ text: first, name, findings: firstFindings }: { text: string
         )}
         <label class="labelled">
           Written as
-          <select class="field" value={kind} onChange={(event) => setKind(event.currentTarget.value as OpenKind)}>
+          <select class="field" value={kind} onChange={(event) => setKind(event.currentTarget.value as Kind)}>
             {KINDS.map((one) => (
               <option key={one.value} value={one.value}>
                 {one.label}

@@ -109,6 +109,10 @@ function primitive(part: LookPart): BufferGeometry | null {
 /** What was read of a description, so that another chain of it is drawn at once. */
 const read = new WeakMap<object, Meshes>();
 let runs = 0;
+/** Whether bodies are being made. */
+let areOnTheWay = false;
+/** After so many milliseconds what is there is shown before the rest. */
+const LONG = 1000;
 
 /** Makes the bodies of the tree in hand; those with a mesh come when it is read. */
 async function make(): Promise<void> {
@@ -116,6 +120,7 @@ async function make(): Promise<void> {
   const opened = tree.peek();
   const looks = opened?.answer.looks;
   if (!opened || !looks || looks.parts.length === 0) {
+    areOnTheWay = false;
     drawable.value = null;
     measures.bodies = 0;
     return;
@@ -129,6 +134,7 @@ async function make(): Promise<void> {
     measures.bodies = bodies.length;
   };
   let shown = performance.now();
+  areOnTheWay = true;
   for (const part of looks.parts) {
     const own = part.colour && ([part.colour[0], part.colour[1], part.colour[2]] as Colour);
     const shape = primitive(part);
@@ -149,12 +155,13 @@ async function make(): Promise<void> {
       failed.set(file, why instanceof Error ? why.message : String(why));
     }
     if (run !== runs) return dispose(bodies);
-    if (performance.now() - shown > 400) {
+    if (performance.now() - shown > LONG) {
       show();
       shown = performance.now();
       await new Promise((resolve) => setTimeout(resolve));
     }
   }
+  areOnTheWay = false;
   batch(() => {
     show();
     wholeTrees.value += 1;
@@ -221,6 +228,7 @@ function tintOf(colour: Colour | null, palette: Palette): Colour {
 export function addLooks(stage: Stage): void {
   const group = new Group();
   stage.add(group);
+  stage.awaits = () => areOnTheWay;
   let bodies: Body[] = [];
   stage.watch(
     "looks",

@@ -34,6 +34,8 @@ export class Stage {
   readonly labels: Labels;
   /** Called when the eye has moved: what keeps its size in pixels. */
   readonly onView = new Set<() => void>();
+  /** Whether more is about to be drawn: the fine picture waits for it. */
+  awaits = (): boolean => false;
   #renderer: WebGLRenderer;
   #scene = new Scene();
   #pending = 0;
@@ -159,7 +161,11 @@ export class Stage {
     measures.renderMs = performance.now() - begun;
     clearTimeout(this.#rest);
     if (isOnTheWay) this.viewChanged();
-    else this.#rest = window.setTimeout(() => this.#settle(), REST);
+    else this.#restSoon();
+  }
+
+  #restSoon(): void {
+    this.#rest = window.setTimeout(() => (this.awaits() ? this.#restSoon() : this.#settle()), REST);
   }
 
   #draw(): void {

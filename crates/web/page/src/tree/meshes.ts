@@ -44,21 +44,24 @@ export class Meshes {
   }
 
   async #parsed(path: string, bytes: Uint8Array<ArrayBuffer>): Promise<Piece[]> {
-    const ending = /\.([a-z]+)$/i.exec(path)?.[1]?.toLowerCase();
+    const kind = READERS[endingOf(path)];
+    if (!kind) throw new Error(`meshes of the kind .${endingOf(path)} are not read`);
+    if (kind !== "gltf") return (await lazy(kind)).read(bytes);
+    // Data beside it lie in the same folder, and nowhere else.
     const folder = path.slice(0, path.lastIndexOf("/") + 1);
-    switch (ending) {
-      case "stl":
-        return (await lazy("stl")).read(bytes);
-      case "obj":
-        return (await lazy("obj")).read(bytes);
-      case "dae":
-        return (await lazy("collada")).read(bytes);
-      case "gltf":
-      case "glb":
-        // Data beside it lie in the same folder, and nowhere else.
-        return (await lazy("gltf")).read(bytes, (name) => (/[\\/:]/.test(name) ? Promise.reject(new Error("its data lie elsewhere")) : this.#load(folder + name)));
-      default:
-        throw new Error(`meshes of the kind .${ending ?? ""} are not read`);
-    }
+    return (await lazy(kind)).read(bytes, (name) => (/[\\/:]/.test(name) ? Promise.reject(new Error("its data lie elsewhere")) : this.#load(folder + name)));
   }
+}
+
+const READERS: Readonly<Record<string, "stl" | "obj" | "collada" | "gltf">> = { stl: "stl", obj: "obj", dae: "collada", gltf: "gltf", glb: "gltf" };
+
+function endingOf(path: string): string {
+  return /\.([a-z]+)$/i.exec(path)?.[1]?.toLowerCase() ?? "";
+}
+
+/** Fetches what reads the meshes among files, before one is asked for. */
+export function prepareReaders(files: Lying[]): void {
+  const kinds = new Set(files.map(({ path }) => READERS[endingOf(path)]));
+  // One that cannot be fetched is asked for again by the mesh that needs it, which says so.
+  for (const kind of kinds) if (kind) lazy(kind).catch(() => {});
 }

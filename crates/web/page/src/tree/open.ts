@@ -3,6 +3,7 @@
 import type { Convention, Output, RobotFile } from "../engine/types.ts";
 import { batch, computed, engine, file, note, replace, said, signal } from "../state.ts";
 import { capital } from "../widgets/words.tsx";
+import { prepareReaders } from "./meshes.ts";
 import { descriptions, includesOthers, type Lying, MESH, root, texts, unpacked } from "./files.ts";
 
 /** Files in which a description stands, and what lies around it. */
@@ -72,6 +73,7 @@ export function alone(name: string, text: string): Source {
 
 /** Files, a folder or a zip with a description; whether there is one to be asked about. */
 export async function openTree(dropped: Lying[]): Promise<boolean> {
+  engine().files.prepare("tree");
   const files = await unpacked(dropped);
   const source: Source = { files, texts: await texts(files), packages: [] };
   const found = descriptions(source.texts);
@@ -128,7 +130,7 @@ export async function read(source: Source, choice: Choice, isCertain = true, oth
   const run = ++runs;
   const text = source.texts.find(([path]) => path === choice.main)?.[1];
   if (text === undefined) throw new Error(`${choice.main} is larger than 16 MiB: it is not a robot description.`);
-  const answer = await engine().files.call("tree", {
+  const asking = engine().files.call("tree", {
     name: choice.main,
     text,
     around: { texts: source.texts, packages: source.packages, others: source.files.map(({ path }) => path).filter((path) => MESH.test(path)) },
@@ -138,6 +140,8 @@ export async function read(source: Source, choice: Choice, isCertain = true, oth
     convention: choice.convention,
     as_written: choice.asWritten,
   });
+  prepareReaders(source.files);
+  const answer = await asking;
   if (run !== runs) return false;
   const opened: Opened = { source, choice, answer };
   if (!answer.file || !isCertain) {

@@ -1,6 +1,6 @@
 // What the readers of meshes give: triangles as plain arrays, in the file's own axes, lengths in metres where it says its unit.
 
-import { BufferAttribute, type BufferGeometry, type Material, Mesh, type Object3D } from "three";
+import { BufferAttribute, type BufferGeometry, type Material, Matrix4, Mesh, type Object3D } from "three";
 
 export interface Piece {
   /** Three numbers a corner, three corners a triangle. */
@@ -13,6 +13,8 @@ export interface Piece {
 /** More triangles are refused while they are counted. */
 export const MOST_TRIANGLES = 5_000_000;
 
+const AS_IT_IS = new Matrix4();
+
 /** All triangles of a scene. */
 export function piecesOf(scene: Object3D, hasColours: boolean): Piece[] {
   scene.updateMatrixWorld(true);
@@ -24,7 +26,7 @@ export function piecesOf(scene: Object3D, hasColours: boolean): Piece[] {
     const count = geometry.getAttribute("position").count;
     left -= count;
     if (left < 0) throw new Error("more than 5 million triangles");
-    geometry.applyMatrix4(one.matrixWorld);
+    if (!one.matrixWorld.equals(AS_IT_IS)) geometry.applyMatrix4(one.matrixWorld);
     const [positions, normals] = ["position", "normal"].map((name) => plain(geometry.getAttribute(name) as BufferAttribute));
     const materials: Material[] = Array.isArray(one.material) ? one.material : [one.material];
     const groups = materials.length > 1 && geometry.groups.length > 0 ? geometry.groups : [{ start: 0, count, materialIndex: 0 }];
@@ -32,7 +34,7 @@ export function piecesOf(scene: Object3D, hasColours: boolean): Piece[] {
       const [from, to] = [3 * start, 3 * Math.min(count, start + some)];
       if (to <= from) continue;
       const colour = hasColours ? colourOf(materials[materialIndex ?? 0]) : null;
-      pieces.push({ positions: positions.slice(from, to), normals: normals.slice(from, to), colour });
+      pieces.push({ positions: positions.subarray(from, to), normals: normals.subarray(from, to), colour });
     }
   });
   if (pieces.length === 0) throw new Error("no triangles in it");
