@@ -174,15 +174,13 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
                  [](const double *x, double *y) { prefix##v4_##f##_block(x, y); });                                    \
     }
 
-// The torques and their derivatives, as Pinocchio has them together: one call behind the other.
+// The torques and their derivatives, as Pinocchio has them together.
 #define LEVEL(arm, N, group, own, name, first, second)                                                                 \
     one<N>(arm, group, name, first, [](const double *x, double *y) {                                                   \
-        own##_torque(x, y);                                                                                            \
-        own##_torque_derivatives(x, (double(*)[3 * N])(y + N));                                                        \
+        own##_torque_with_derivatives(x, (double(*)[3 * N + 1])y);                                                     \
     });                                                                                                                \
     block<N>(arm, group, name, second, [](const double *x, double *y) {                                                \
-        own##_torque_block(x, y);                                                                                      \
-        own##_torque_derivatives_block(x, y + LANES * N);                                                              \
+        own##_torque_with_derivatives_block(x, y);                                                                     \
     });
 #define DERIVED(arm, N, group, prefix, first, second)                                                                  \
     LEVEL(arm, N, group, prefix##v3, "generated C, AVX2", 0, 0)                                                        \
@@ -194,7 +192,7 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
     static Arm<N> prefix(prefix##_links, N);                                                                           \
     {                                                                                                                  \
         auto &arm = prefix;                                                                                            \
-        double tau[N], inertia[N][N], qdd[N], by[N][3 * N];                                                            \
+        double tau[N], inertia[N][N], qdd[N], by[N][3 * N], all[N][3 * N + 1];                                          \
         for (int i = 0; i < STATES; i++) {                                                                             \
             const double *x = &arm.states[3 * N * i];                                                                  \
             prefix##v3_torque(x, tau);                                                                                 \
@@ -204,12 +202,15 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
             hold(qdd, theirs.data(), N);                                                                               \
             pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                      \
             prefix##v3_torque_derivatives(x, by);                                                                      \
+            prefix##v3_torque_with_derivatives(x, all);                                                                \
             prefix##v3_inertia(x, inertia);                                                                            \
             for (int r = 0; r < N; r++) {                                                                              \
                 const Eigen::VectorXd first = arm.data.dtau_dq.row(r), second = arm.data.dtau_dv.row(r);               \
                 hold(by[r], first.data(), N);                                                                          \
                 hold(by[r] + N, second.data(), N);                                                                     \
                 hold(by[r] + 2 * N, inertia[r], N);                                                                    \
+                hold(all[r], tau + r, 1);                                                                              \
+                hold(all[r] + 1, by[r], 3 * N);                                                                        \
             }                                                                                                          \
         }                                                                                                              \
         BOTH(arm, N, title ": torque", prefix, torque, , L[0], L[1])                                                   \

@@ -36,8 +36,8 @@ const MOVING: &[(&str, &[&str])] = &[
 /// What is generated of the others.
 const KINEMATIC: &str = "fk,frames,jacobian,ik";
 /// What is generated of those that move.
-const DYNAMIC: &str =
-    "fk,torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives";
+const DYNAMIC: &str = "fk,torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives,\
+     torque_with_derivatives,acceleration_with_derivatives";
 /// What every C file is compiled with, beside what its Makefile says.
 const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic";
 const PYTHON_PACKAGES: &[&str] = &["numpy", "nvidia-cuda-nvrtc-cu12"];

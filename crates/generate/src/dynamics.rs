@@ -191,8 +191,9 @@ fn claim(function: DynamicFunction, all: &DynamicPrograms, made: &DynamicProgram
         DynamicFunction::Inertia | DynamicFunction::TorqueDerivatives => {
             "derivatives of the torques, which are "
         }
+        DynamicFunction::TorqueWithDerivatives => "the torques and their derivatives; the torques are ",
         DynamicFunction::Acceleration => "by A = LDL^T from the torques, which are ",
-        DynamicFunction::AccelerationDerivatives => {
+        DynamicFunction::AccelerationDerivatives | DynamicFunction::AccelerationWithDerivatives => {
             "by A = LDL^T from derivatives of the torques, which are "
         }
     };
@@ -233,8 +234,18 @@ fn claim(function: DynamicFunction, all: &DynamicPrograms, made: &DynamicProgram
 fn words(function: DynamicFunction, n: usize) -> (&'static str, Vec<usize>, Vec<String>) {
     let units = "N m (N for a joint that slides)";
     let change = "rad/s^2 (m/s^2 for a joint that slides)";
+    let first = function.before_derivatives().unwrap_or(0);
     let columns = |last: &str| {
-        format!("Columns 1 to {n}: by q; {} to {}: by qd; {} to {}: {last}.", n + 1, 2 * n, 2 * n + 1, 3 * n)
+        let column = |k: usize| first + k;
+        format!(
+            "Columns {} to {}: by q; {} to {}: by qd; {} to {}: {last}.",
+            column(1),
+            column(n),
+            column(n + 1),
+            column(2 * n),
+            column(2 * n + 1),
+            column(3 * n)
+        )
     };
     let at_zero =
         "Coulomb's friction jumps where a rate is 0: its derivative is 0 on either side, and 0 here."
@@ -289,6 +300,24 @@ fn words(function: DynamicFunction, n: usize) -> (&'static str, Vec<usize>, Vec<
         DynamicFunction::AccelerationDerivatives => {
             let what = format!("The derivatives of the accelerations, {n} by {}, a row a joint.", 3 * n);
             ("derivatives", vec![n, 3 * n], vec![what, columns("by tau, which is the inverse of A"), at_zero])
+        }
+        DynamicFunction::TorqueWithDerivatives => {
+            let what = format!(
+                "The torques with their derivatives in one pass, {n} by {}, a row a joint: what both need is computed once.",
+                3 * n + 1
+            );
+            let torques = format!("Column 1: the torques; {units}.");
+            let derivatives = columns("by qdd, which is the inertia matrix");
+            ("expansion", vec![n, 3 * n + 1], vec![what, torques, derivatives, at_zero])
+        }
+        DynamicFunction::AccelerationWithDerivatives => {
+            let what = format!(
+                "The accelerations with their derivatives in one pass, {n} by {}, a row a joint: what both need is computed once.",
+                3 * n + 1
+            );
+            let accelerations = format!("Column 1: the accelerations; {change}.");
+            let derivatives = columns("by tau, which is the inverse of A");
+            ("expansion", vec![n, 3 * n + 1], vec![what, accelerations, derivatives, at_zero])
         }
     }
 }
@@ -428,9 +457,12 @@ fn scales(one: &One, all: &Dynamic, vectors: &[Vector]) -> Vec<f64> {
     let n = all.all.symbols[0].len();
     let count = one.program.outputs().len();
     // Results of one kind: energies each, a matrix column block by column block.
-    let kind = |k: usize| match one.function {
-        DynamicFunction::Energy => k,
-        DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => (k % (3 * n)) / n,
+    let kind = |k: usize| match (one.function, one.function.before_derivatives()) {
+        (DynamicFunction::Energy, _) => k,
+        (_, Some(first)) => match (k % (3 * n + first)).checked_sub(first) {
+            Some(column) => column / n,
+            None => 3,
+        },
         _ => 0,
     };
     let kinds = (0..count).map(kind).max().map_or(0, |k| k + 1);

@@ -43,7 +43,7 @@ pub enum Wanted {
 
 impl Wanted {
     /// All of them.
-    pub const ALL: [Wanted; 13] = [
+    pub const ALL: [Wanted; 15] = [
         Wanted::Pose,
         Wanted::Frames,
         Wanted::Jacobian,
@@ -57,6 +57,8 @@ impl Wanted {
         Wanted::Dynamic(DynamicFunction::Energy),
         Wanted::Dynamic(DynamicFunction::TorqueDerivatives),
         Wanted::Dynamic(DynamicFunction::AccelerationDerivatives),
+        Wanted::Dynamic(DynamicFunction::TorqueWithDerivatives),
+        Wanted::Dynamic(DynamicFunction::AccelerationWithDerivatives),
     ];
 
     /// Its name.
@@ -75,6 +77,8 @@ impl Wanted {
             Wanted::Dynamic(DynamicFunction::Energy) => "energy",
             Wanted::Dynamic(DynamicFunction::TorqueDerivatives) => "torque_derivatives",
             Wanted::Dynamic(DynamicFunction::AccelerationDerivatives) => "acceleration_derivatives",
+            Wanted::Dynamic(DynamicFunction::TorqueWithDerivatives) => "torque_with_derivatives",
+            Wanted::Dynamic(DynamicFunction::AccelerationWithDerivatives) => "acceleration_with_derivatives",
         }
     }
 

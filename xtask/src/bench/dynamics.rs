@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 const ARMS: [(&str, &str, &str); 2] = [("ur5_robot", "tool0", "ur5"), ("panda", "panda_link8", "panda")];
 /// Levels of instructions, with what gcc needs to use them.
 const LEVELS: [(&str, &[&str]); 2] = [("v3", &[]), ("v4", &["-mprefer-vector-width=512"])];
-const FUNCTIONS: &str = "torque,inertia,acceleration,torque_derivatives";
+const FUNCTIONS: &str = "torque,inertia,acceleration,torque_derivatives,torque_with_derivatives";
 /// What Pinocchio's headers ask of a compiler.
 const PINOCCHIO: &[&str] = &[
     "-std=c++17",
@@ -33,7 +33,8 @@ A UR5 and a Panda (seven joints, its hand fixed) with the numbers of their URDFs
 random states) beside Pinocchio 4.1 in C++ (clang, `-O3 -march=native`, templates built for this processor), in one program. The\n\
 unit U, rounds and quartiles are those of [evaluation](#evaluation). Before anything is timed torques, accelerations and\n\
 derivatives are compared with Pinocchio's in every state: they agree within 1e-9 of their size (the URDF's 1.57079632679 is\n\
-π/2 to us). A is all of the matrix; Pinocchio computes half of it. Torque with derivatives is τ, ∂τ/∂q, ∂τ/∂q̇ and A.\n";
+π/2 to us). A is all of the matrix; Pinocchio computes half of it. Torque with derivatives is τ, ∂τ/∂q, ∂τ/∂q̇ and A, by\n\
+`torque_with_derivatives`.\n";
 
 /// Generates, builds and measures, and gives the section of the page.
 ///

@@ -412,7 +412,7 @@ pub struct GenerateArguments {
     /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), jacobian (of the tool),
     /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose); torque (inverse
     /// dynamics), inertia, bias, gravity, acceleration (direct dynamics), energy, torque_derivatives,
-    /// acceleration_derivatives
+    /// acceleration_derivatives; torque_with_derivatives, acceleration_with_derivatives (both in one pass)
     #[arg(long, short, value_name = "NAMES", default_value = "fk,ik")]
     pub functions: String,
     /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);

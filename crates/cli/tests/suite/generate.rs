@@ -214,10 +214,11 @@ fn an_arm_without_closed_form_has_the_forward_model_only() {
 fn dynamics_are_generated() {
     let moving = concat!(env!("CARGO_MANIFEST_DIR"), "/../generate/tests/robots/moving.toml");
     let target = folder("moving");
-    let all = "torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives";
+    let all = "torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives,\
+               torque_with_derivatives,acceleration_with_derivatives";
     let answer = generated(moving, "c", &target, &["--functions", all]);
     let functions = answer["functions"].as_array().expect("a list");
-    assert_eq!(functions.len(), 8);
+    assert_eq!(functions.len(), 10);
     for f in functions {
         let is_energy = f["name"] == "energy";
         assert!(

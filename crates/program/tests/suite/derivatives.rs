@@ -149,7 +149,41 @@ fn a_gradient_is_cheap() {
     assert!(g.jacobian().count().cost() <= 4 * g.count().cost());
 }
 
+/// Three variables, a chain of products and three results: rates run through the chain three times, weights likewise, and the
+/// elimination of its vertices once.
+#[test]
+fn elimination_takes_a_narrow_place_once() {
+    let [x, y, z, a] = ["x", "y", "z", "a"].map(Expr::symbol);
+    let chain = (0..30).fold(x * y * z, |v, _| v * v + a);
+    let f = program(&["x", "y", "z"], &["a"], &[("f", chain * x), ("g", chain * y), ("h", chain * z)]);
+    let [plain, found] = [0, 1].map(|orders| f.jacobian_in_orders(f.variables(), orders));
+    assert_eq!(plain, f.jacobian());
+    let [most, least] = [plain, found].map(|p| p.count().cost());
+    assert!(least + 40 < most, "{least} against {most}");
+}
+
 proptest! {
+    /// Elimination of vertices gives the same matrix, of some of the variables, too, and never a longer program.
+    #[test]
+    fn every_order_gives_the_jacobian(
+        steps in steps(40),
+        at in [-3.0..3.0_f64, -3.0..3.0, -3.0..3.0, -3.0..3.0],
+    ) {
+        let f = random(&steps, 3);
+        for some in [f.variables(), &f.variables()[1..]] {
+            let plain = f.jacobian_by(some);
+            let found = f.jacobian_in_orders(some, 3);
+            prop_assert_eq!(&found, &f.jacobian_in_orders(some, 3));
+            prop_assert!(found.count().cost() <= plain.count().cost());
+            let names = |p: &Program| p.outputs().iter().map(|o| o.0.clone()).collect::<Vec<_>>();
+            prop_assert_eq!(names(&found), names(&plain));
+            let [found, plain] = [found, plain].map(|p| eval(&p, &extended(&at)));
+            for (x, y) in found.iter().zip(&plain) {
+                prop_assert!(differ(x, y) < 1e-24, "{:?} {:?}", x, y);
+            }
+        }
+    }
+
     #[test]
     fn compositions(steps in steps(14), at in [-3.0..3.0_f64, -3.0..3.0, -3.0..3.0, -3.0..3.0]) {
         let found = deviation(&random(&steps, 3), &at);

@@ -49,6 +49,44 @@ fn counts_are_as_short_as_they_were_found() {
     }
 }
 
+/// Torques and their derivatives in one pass: to rounding what the functions alone and the recursion over dual numbers give, and
+/// with fewer operations; accelerations likewise.
+#[test]
+fn one_pass_is_shorter_than_two() {
+    for name in ["planar-2r", "scara", "stanford", "ur5"] {
+        let d = random_arm(name, 21);
+        let arm = Dynamics::numeric(&d).expect("numbers");
+        let all = DynamicPrograms::new(&d, Masses::Numbers).unwrap();
+        let n = all.symbols[0].len();
+        let [q, qd, third] = state(n, &mut Random(17));
+        let tau = direct_dynamics(&arm, &q, &qd, &third, None).unwrap();
+        for (both, values, slopes) in [
+            (F::TorqueWithDerivatives, F::Torque, F::TorqueDerivatives),
+            (F::AccelerationWithDerivatives, F::Acceleration, F::AccelerationDerivatives),
+        ] {
+            let [both_programs, values, slopes] =
+                [both, values, slopes].map(|f| all.program(f).unwrap().program);
+            let [cost, of_values, of_slopes] = [&both_programs, &values, &slopes].map(|p| p.count().cost());
+            assert!(cost < of_values + of_slopes, "{name}, {both:?}: {cost} of {of_values} and {of_slopes}");
+            let (x, of_plain) = if both.is_driven() {
+                let found = acceleration_derivatives(&arm, &q, &qd, &third).unwrap();
+                (tau.clone(), found)
+            } else {
+                let found = torque_derivatives(&arm, &q, &qd, &third);
+                (drive_torques(&arm, &q, &qd, &third, None), found)
+            };
+            let inputs = [&q[..], &qd, &third].concat();
+            let found = both_programs.compile(&lengths(&d, &both_programs)).scalar().eval(&inputs).to_vec();
+            let wanted: Vec<f64> = (0..n)
+                .flat_map(|j| {
+                    [&[x[j]], &of_plain.by_q[j][..], &of_plain.by_qd[j], &of_plain.by_third[j]].concat()
+                })
+                .collect();
+            close(&format!("{name}, {both:?}"), &found, &wanted, 1e-11 * is_conditioned(both));
+        }
+    }
+}
+
 /// The first state of each arm with Pinocchio's bodies: torques, matrices, accelerations and all first derivatives.
 #[test]
 fn programs_agree_with_pinocchio() {
@@ -115,10 +153,19 @@ fn programs_agree_with_pinocchio() {
             let more = rubbed.by_qd[j][j] - found.by_qd[j][j];
             assert!((more - 0.7 + before.viscous).abs() < 1e-9, "{name}: {more}");
         }
-        hold(F::TorqueDerivatives, "qdd", beside(["tau_q", "tau_qd", "tau_qdd"]), 1e-10);
+        let behind = |values: &str, slopes: [&str; 3]| -> Vec<f64> {
+            let (values, slopes) = (of(values), beside(slopes));
+            let rows = slopes.chunks(3 * values.len());
+            values.iter().zip(rows).flat_map(|(&v, row)| [&[v], row].concat()).collect()
+        };
+        let of_torques = ["tau_q", "tau_qd", "tau_qdd"];
+        hold(F::TorqueDerivatives, "qdd", beside(of_torques), 1e-10);
+        hold(F::TorqueWithDerivatives, "qdd", behind("tau", of_torques), 1e-10);
         if slope["qdd_q"].is_array() {
             derived += 1;
-            hold(F::AccelerationDerivatives, "pulled", beside(["qdd_q", "qdd_qd", "qdd_tau"]), 1e-9);
+            let of_accelerations = ["qdd_q", "qdd_qd", "qdd_tau"];
+            hold(F::AccelerationDerivatives, "pulled", beside(of_accelerations), 1e-9);
+            hold(F::AccelerationWithDerivatives, "pulled", behind("direct", of_accelerations), 1e-9);
         }
     }
     assert_eq!((states.len(), derived), (28, 26));

@@ -2,7 +2,8 @@
 //!
 //! All come from one program, the short one for the torques, by substitution and exact differentiation: the bias is the torque
 //! without accelerations, A its derivative by them, the accelerations A⁻¹(τ − h) by A = LDLᵀ ([`solve`]), and their derivatives
-//! −A⁻¹ ∂τ/∂q, −A⁻¹ ∂τ/∂q̇ and A⁻¹, with ∂τ/∂q at these accelerations. A may come from composite bodies, too, where that is shorter
+//! −A⁻¹ ∂τ/∂q, −A⁻¹ ∂τ/∂q̇ and A⁻¹, with ∂τ/∂q at these accelerations. Derivatives are by elimination of vertices, in the shortest
+//! of some orders at random. A may come from composite bodies, too, where that is shorter
 //! and the same. What parts have in common is computed once; then each program is shortened, and held against what it was before
 //! ([`held`]). A wrench that the tool exerts adds Jᵀ w to the torques ([`wrench`]). Energies are those of the plain links.
 
@@ -26,11 +27,14 @@ use denavit_program::{Composer, Program, Value};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use held::{Held, same};
 use rustc_hash::{FxHashMap, FxHashSet};
+use solve::Solved;
 use std::cell::OnceCell;
 use std::fmt;
 
 /// Orders at random in which programs are shortened.
 const ORDERS: u64 = 8;
+/// Orders at random in which vertices are eliminated.
+const ELIMINATIONS: u64 = 24;
 
 /// A dynamic function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -51,6 +55,10 @@ pub enum DynamicFunction {
     TorqueDerivatives,
     /// ∂q̈/∂q, ∂q̈/∂q̇ and A⁻¹ side by side, row by row, from q, q̇ and τ.
     AccelerationDerivatives,
+    /// τ, ∂τ/∂q, ∂τ/∂q̇ and A side by side, row by row, from q, q̇ and q̈: what the torques and their derivatives have in common once.
+    TorqueWithDerivatives,
+    /// q̈, ∂q̈/∂q, ∂q̈/∂q̇ and A⁻¹ side by side, row by row, from q, q̇ and τ.
+    AccelerationWithDerivatives,
 }
 
 /// Which numbers of the links a program takes as parameters.
@@ -94,6 +102,8 @@ pub struct DynamicPrograms {
     matrices: OnceCell<Vec<DynamicProgram>>,
     /// The torque without accelerations, once it was asked for.
     bias: OnceCell<DynamicProgram>,
+    /// The derivatives of the torques by q and q̇, once they were asked for.
+    by_state: OnceCell<Program>,
 }
 
 /// A dynamic function as a program.
@@ -143,7 +153,7 @@ impl DynamicProgram {
 
 impl DynamicFunction {
     /// All of them.
-    pub const ALL: [DynamicFunction; 8] = [
+    pub const ALL: [DynamicFunction; 10] = [
         DynamicFunction::Torque,
         DynamicFunction::Inertia,
         DynamicFunction::Bias,
@@ -152,6 +162,8 @@ impl DynamicFunction {
         DynamicFunction::Energy,
         DynamicFunction::TorqueDerivatives,
         DynamicFunction::AccelerationDerivatives,
+        DynamicFunction::TorqueWithDerivatives,
+        DynamicFunction::AccelerationWithDerivatives,
     ];
 
     /// How many of q, q̇ and the third vector it reads: 1, 2 or 3.
@@ -162,7 +174,9 @@ impl DynamicFunction {
             DynamicFunction::Torque
             | DynamicFunction::Acceleration
             | DynamicFunction::TorqueDerivatives
-            | DynamicFunction::AccelerationDerivatives => 3,
+            | DynamicFunction::AccelerationDerivatives
+            | DynamicFunction::TorqueWithDerivatives
+            | DynamicFunction::AccelerationWithDerivatives => 3,
         }
     }
 
@@ -174,13 +188,41 @@ impl DynamicFunction {
             | DynamicFunction::Bias
             | DynamicFunction::Acceleration
             | DynamicFunction::TorqueDerivatives
-            | DynamicFunction::AccelerationDerivatives => true,
+            | DynamicFunction::AccelerationDerivatives
+            | DynamicFunction::TorqueWithDerivatives
+            | DynamicFunction::AccelerationWithDerivatives => true,
         }
     }
 
     /// Whether the third vector is that of the torques.
     pub fn is_driven(self) -> bool {
-        matches!(self, DynamicFunction::Acceleration | DynamicFunction::AccelerationDerivatives)
+        match self {
+            DynamicFunction::Acceleration
+            | DynamicFunction::AccelerationDerivatives
+            | DynamicFunction::AccelerationWithDerivatives => true,
+            DynamicFunction::Torque
+            | DynamicFunction::Inertia
+            | DynamicFunction::Bias
+            | DynamicFunction::Gravity
+            | DynamicFunction::Energy
+            | DynamicFunction::TorqueDerivatives
+            | DynamicFunction::TorqueWithDerivatives => false,
+        }
+    }
+
+    /// Of a matrix that has derivatives side by side, by one vector after the other, in how many columns other results stand before
+    /// them; nothing for any other function.
+    pub fn before_derivatives(self) -> Option<usize> {
+        match self {
+            DynamicFunction::Torque
+            | DynamicFunction::Inertia
+            | DynamicFunction::Bias
+            | DynamicFunction::Gravity
+            | DynamicFunction::Acceleration
+            | DynamicFunction::Energy => None,
+            DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => Some(0),
+            DynamicFunction::TorqueWithDerivatives | DynamicFunction::AccelerationWithDerivatives => Some(1),
+        }
     }
 }
 
@@ -236,6 +278,7 @@ impl DynamicPrograms {
             torque,
             matrices: OnceCell::new(),
             bias: OnceCell::new(),
+            by_state: OnceCell::new(),
         })
     }
 
@@ -253,15 +296,17 @@ impl DynamicPrograms {
             DynamicFunction::Torque => Ok(DynamicProgram::plain(self.torque.clone())),
             DynamicFunction::Bias => Ok(self.bias().clone()),
             DynamicFunction::Gravity => Ok(self.at_rest(2)),
-            DynamicFunction::TorqueDerivatives => Ok(self.slopes()),
+            DynamicFunction::TorqueDerivatives => Ok(self.slopes(false)),
+            DynamicFunction::TorqueWithDerivatives => Ok(self.slopes(true)),
             DynamicFunction::Energy if self.masses == Masses::Base => Err(NoProgram::Energy),
             DynamicFunction::Energy => Ok(DynamicProgram::plain(self.energies())),
             DynamicFunction::Inertia => {
                 let shortest = self.inertias().iter().min_by_key(|p| p.program.count().cost());
                 Ok(shortest.expect("there is the derivative").clone())
             }
-            DynamicFunction::Acceleration => self.accelerations(false),
-            DynamicFunction::AccelerationDerivatives => self.accelerations(true),
+            DynamicFunction::Acceleration => self.accelerations(Solved::Accelerations),
+            DynamicFunction::AccelerationDerivatives => self.accelerations(Solved::Derivatives),
+            DynamicFunction::AccelerationWithDerivatives => self.accelerations(Solved::Both),
         }
     }
 
@@ -292,11 +337,15 @@ impl DynamicPrograms {
                 .collect()
         };
         let formulas = match function {
-            DynamicFunction::Torque | DynamicFunction::TorqueDerivatives => torque(&qd, &qdd),
+            DynamicFunction::Torque
+            | DynamicFunction::TorqueDerivatives
+            | DynamicFunction::TorqueWithDerivatives => torque(&qd, &qdd),
             DynamicFunction::Inertia => inertia_matrix(arm, &q).concat(),
             DynamicFunction::Bias => torque(&qd, &still),
             DynamicFunction::Gravity => torque(&still, &still),
-            DynamicFunction::Acceleration | DynamicFunction::AccelerationDerivatives => {
+            DynamicFunction::Acceleration
+            | DynamicFunction::AccelerationDerivatives
+            | DynamicFunction::AccelerationWithDerivatives => {
                 let rest: Vec<Expr> = tau.iter().zip(torque(&qd, &still)).map(|(&t, h)| t - h).collect();
                 factored(&inertia_matrix(arm, &q)).solve(&rest)
             }
@@ -304,11 +353,10 @@ impl DynamicPrograms {
         };
         let variables = self.variables(function);
         let plain = with_values(&program(&variables, &formulas), &self.model.formulas, &self.values);
-        match function {
-            DynamicFunction::TorqueDerivatives | DynamicFunction::AccelerationDerivatives => {
-                plain.jacobian_by(&variables[..3 * n])
-            }
-            _ => plain,
+        match function.before_derivatives() {
+            None => plain,
+            Some(0) => plain.jacobian_by(&variables[..3 * n]),
+            Some(_) => beside(&plain, &plain.jacobian_by(&variables[..3 * n])),
         }
     }
 
@@ -388,25 +436,32 @@ impl DynamicPrograms {
         Some(all.finish(&named("a", entries)))
     }
 
-    /// ∂τ/∂q, ∂τ/∂q̇ and A: all of them derivatives of the torques, or with the matrix that makes it the shortest.
-    fn slopes(&self) -> DynamicProgram {
+    /// ∂τ/∂q, ∂τ/∂q̇ and A, behind the torques or alone: all of them derivatives of the torques, or with the matrix that makes it the
+    /// shortest.
+    fn slopes(&self, with_torques: bool) -> DynamicProgram {
         let [q, qd, qdd, _] = &self.symbols;
         let n = q.len();
-        let by_state = self.torque.jacobian_by(&[&q[..], qd].concat());
+        let whole = |slopes: Program| if with_torques { beside(&self.torque, &slopes) } else { slopes };
         let with = |matrix: &DynamicProgram| {
             let mut all =
                 Composer::new(&self.variables(DynamicFunction::TorqueDerivatives), self.parameters());
-            let slopes = all.copy(&by_state, |_| None);
+            let slopes = all.copy(self.by_state(), |_| None);
             let matrix_entries = all.copy(&matrix.program, |_| None);
             // Two of nothing side by side are nothing.
             let rows = slopes.chunks((2 * n).max(1)).zip(matrix_entries.chunks(n.max(1)));
             let entries = rows.flat_map(|(a, b)| [a, b].concat()).collect();
-            DynamicProgram { program: all.finish(&named("d", entries)), ..matrix.clone() }
+            DynamicProgram { program: whole(all.finish(&named("d", entries))), ..matrix.clone() }
         };
-        let plain = DynamicProgram::plain(self.torque.jacobian_by(&[&q[..], qd, qdd].concat()));
-        let all = self.inertias().iter().map(with).chain([plain]);
+        let plain = self.torque.jacobian_in_orders(&[&q[..], qd, qdd].concat(), ELIMINATIONS);
+        let all = self.inertias().iter().map(with).chain([DynamicProgram::plain(whole(plain))]);
         let held = if n <= EXPANDED { Held::Expanded } else { Held::AtStates };
         self.shortened(all.collect(), 0, held)
+    }
+
+    /// ∂τ/∂q and ∂τ/∂q̇ side by side.
+    fn by_state(&self) -> &Program {
+        let [q, qd, ..] = &self.symbols;
+        self.by_state.get_or_init(|| self.torque.jacobian_in_orders(&[&q[..], qd].concat(), ELIMINATIONS))
     }
 
     /// The torques of accelerations alone, at rest and without gravity: A q̈.
@@ -429,6 +484,17 @@ impl DynamicPrograms {
         let both = [kinetic_energy(arm, &q, &qd), potential_energy(arm, &q)];
         with_values(&program(&self.symbols[..2].concat(), &both), formulas, &self.values)
     }
+}
+
+/// The results of a program, each with its derivatives behind it.
+fn beside(values: &Program, slopes: &Program) -> Program {
+    let mut all = Composer::new(values.variables(), values.parameters());
+    let rows = all.copy(values, |_| None);
+    let derivatives = all.copy(slopes, |_| None);
+    let columns = derivatives.len() / rows.len().max(1);
+    let row = |(k, value): (usize, &Value)| [&[*value], &derivatives[columns * k..][..columns]].concat();
+    let entries = rows.iter().enumerate().flat_map(row).collect();
+    all.finish(&named("d", entries))
 }
 
 /// `t1`, `t2`, ….

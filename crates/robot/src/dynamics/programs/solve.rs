@@ -9,11 +9,22 @@ use denavit_program::{Composer, Program, Residue, Value};
 use denavit_symbolic::{Rational, Symbol};
 use rustc_hash::FxHashMap;
 
+/// What is asked of A q̈ = τ − h.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Solved {
+    /// q̈.
+    Accelerations,
+    /// Its derivatives.
+    Derivatives,
+    /// Both, row by row.
+    Both,
+}
+
 impl DynamicPrograms {
-    /// q̈ = A⁻¹(τ − h), or its derivatives, with the matrix that makes it the shortest.
-    pub(super) fn accelerations(&self, derivatives: bool) -> Result<DynamicProgram, NoProgram> {
+    /// q̈ = A⁻¹(τ − h), its derivatives, or both, with the matrix that makes it the shortest.
+    pub(super) fn accelerations(&self, wanted: Solved) -> Result<DynamicProgram, NoProgram> {
         let solved = |matrix: &DynamicProgram| -> Result<DynamicProgram, NoProgram> {
-            let program = self.solved(&matrix.program, derivatives)?;
+            let program = self.solved(&matrix.program, wanted)?;
             let shortening = matrix.shortening.and(self.bias().shortening);
             Ok(DynamicProgram { program, shortening, ..matrix.clone() })
         };
@@ -21,7 +32,7 @@ impl DynamicPrograms {
         Ok(self.shortened(all, 0, Held::AtStates))
     }
 
-    fn solved(&self, matrix: &Program, derivatives: bool) -> Result<Program, NoProgram> {
+    fn solved(&self, matrix: &Program, wanted: Solved) -> Result<Program, NoProgram> {
         let [q, qd, qdd, tau] = &self.symbols;
         let n = q.len();
         let variables = [&q[..], qd, tau, &self.wrench].concat();
@@ -40,11 +51,11 @@ impl DynamicPrograms {
             return Err(NoProgram::Singular(n - 1 - lost));
         }
         let accelerations = factors.solve(rest, &mut all);
-        if !derivatives {
+        if wanted == Solved::Accelerations {
             return Ok(all.finish(&named("qdd", accelerations)));
         }
         let at = |s: Symbol| qdd.iter().position(|k| *k == s).map(|k| accelerations[k]);
-        let slopes = all.copy(&self.torque.jacobian_by(&[&q[..], qd].concat()), at);
+        let slopes = all.copy(self.by_state(), at);
         let [zero, one] = [Rational::ZERO, Rational::ONE].map(|r| all.graph().number(&r));
         let mut columns: Vec<Vec<Value>> = vec![];
         for c in 0..2 * n {
@@ -60,7 +71,11 @@ impl DynamicPrograms {
             Some(j) if j > i => columns[2 * n + i][j],
             _ => columns[c][i],
         };
-        let entries = (0..3 * n * n).map(|k| entry(k / (3 * n), k % (3 * n))).collect();
+        let row = |i: usize| {
+            let own = accelerations.get(i).copied().filter(|_| wanted == Solved::Both);
+            own.into_iter().chain((0..3 * n).map(move |c| (i, c)).map(|(i, c)| entry(i, c)))
+        };
+        let entries = (0..n).flat_map(row).collect();
         Ok(all.finish(&named("d", entries)))
     }
 }

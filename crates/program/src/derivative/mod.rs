@@ -2,7 +2,10 @@
 //!
 //! Forward mode carries rates from the inputs to the results: `dv = Σ ∂v/∂a · da` over the operands a of v.
 //! Reverse mode carries weights from the results to the inputs: `w(a) = Σ ∂v/∂a · w(v)` over all v that read a.
-//! Both are traced into the graph of the program itself, so that what they have in common with it is computed once.
+//! Elimination of vertices is in between ([`Program::jacobian_in_orders`]).
+//! All are traced into the graph of the program itself, so that what they have in common with it is computed once.
+
+mod elimination;
 
 use crate::graph::{Graph, Op, Stage, Value};
 use crate::program::Program;
@@ -25,12 +28,7 @@ impl Program {
         let at = work.copy(self);
         let results: Vec<Value> =
             self.outputs().iter().map(|o| signed(at[o.1.node as usize], o.1.negative)).collect();
-        let mut names = vec![];
-        for (result, _) in self.outputs() {
-            for variable in variables {
-                names.push(work.unique(&format!("d_{result}_{}", variable.name())));
-            }
-        }
+        let names = named_jacobian(self, variables, &mut work);
         let nodes = Nodes::new(&mut work.graph, &results);
         let by_rates = forward_jacobian(&mut work.graph, &nodes, variables, &results);
         let by_weights = reverse_jacobian(&mut work.graph, &nodes, variables, &results);
@@ -99,6 +97,13 @@ impl Program {
         }
         work.finish(&outputs)
     }
+}
+
+/// Names for the derivatives of all results by some variables.
+fn named_jacobian(program: &Program, variables: &[Symbol], work: &mut Rebuild) -> Vec<String> {
+    let results = program.outputs().iter();
+    let pairs = results.flat_map(|(result, _)| variables.iter().map(move |v| (result, v)));
+    pairs.map(|(result, v)| work.unique(&format!("d_{result}_{}", v.name()))).collect()
 }
 
 /// The nodes that the results need and that vary, in order of evaluation, each with its partial derivatives.
