@@ -157,7 +157,7 @@ fn elimination_takes_a_narrow_place_once() {
     let chain = (0..30).fold(x * y * z, |v, _| v * v + a);
     let f = program(&["x", "y", "z"], &["a"], &[("f", chain * x), ("g", chain * y), ("h", chain * z)]);
     let [plain, found] = [0, 1].map(|orders| f.jacobian_in_orders(f.variables(), orders));
-    assert_eq!(plain, f.jacobian());
+    assert_eq!(plain.to_text(), f.jacobian().to_text());
     let [most, least] = [plain, found].map(|p| p.count().cost());
     assert!(least + 40 < most, "{least} against {most}");
 }
@@ -173,7 +173,7 @@ proptest! {
         for some in [f.variables(), &f.variables()[1..]] {
             let plain = f.jacobian_by(some);
             let found = f.jacobian_in_orders(some, 3);
-            prop_assert_eq!(&found, &f.jacobian_in_orders(some, 3));
+            prop_assert_eq!(found.to_text(), f.jacobian_in_orders(some, 3).to_text());
             prop_assert!(found.count().cost() <= plain.count().cost());
             let names = |p: &Program| p.outputs().iter().map(|o| o.0.clone()).collect::<Vec<_>>();
             prop_assert_eq!(names(&found), names(&plain));
