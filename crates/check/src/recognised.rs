@@ -91,12 +91,19 @@ fn in_plane(x: &Transform<Expr>) -> Option<Matrix> {
     is_flat.then(|| Matrix(vec![row(0), row(1), last]))
 }
 
-/// Columns of the hand's Jacobian along the axes of the base: whole, or the linear and the angular part.
+/// Columns of the hand's Jacobian along the axes of the base: whole, the linear and the angular part, or those of a motion in a
+/// plane of the base, (x, y, φ) and (x, z, φ).
 fn columns(subject: &Subject, rows: usize) -> Vec<Candidate> {
     let axes = subject.ground();
     let full = subject.geometric_rows(Reference::Tool, axes);
     let parts: &[([u8; 6], bool)] = match rows {
         6 => &[([0, 1, 2, 3, 4, 5], false), ([3, 4, 5, 0, 1, 2], true)],
+        3 => &[
+            ([0, 1, 2, 3, 4, 5], false),
+            ([3, 4, 5, 0, 1, 2], false),
+            ([0, 1, 5, 2, 3, 4], false),
+            ([0, 2, 4, 1, 3, 5], false),
+        ],
         _ => &[([0, 1, 2, 3, 4, 5], false), ([3, 4, 5, 0, 1, 2], false)],
     };
     let mut found = vec![];

@@ -4,7 +4,7 @@ use super::displayed;
 use std::borrow::Cow;
 
 /// Where commas are those of numbers, there are so many for each point between digits.
-const COMMAS_A_POINT: usize = 6;
+const COMMAS_A_POINT: usize = 4;
 /// The most blanks between a word and the number behind it.
 const MAX_BLANKS: usize = 3;
 
@@ -140,19 +140,23 @@ fn units_without_brackets(text: &str, is_program: bool) -> Option<String> {
 fn conjunctions(text: &str) -> Option<String> {
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
-    for word in [" e ", " y ", " i ", " a ", " u "] {
-        for (at, _) in text.match_indices(word) {
-            let line = text[..at].rsplit('\n').next().unwrap_or_default();
-            let value =
-                line.rsplit('=').next().map_or("", str::trim).trim_end_matches(['m', '°', 'c', ' ', '$']);
-            let is_value = line.contains('=') && value.parse::<f64>().is_ok();
-            let behind = text[at + word.len()..].trim_start_matches(['$', '\\']);
-            let name = behind.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}')));
-            let is_next =
-                name.is_some_and(|n| n > 0 && n < 16 && behind[n..].trim_start_matches(' ').starts_with('='));
-            if is_value && is_next {
-                bytes[at + 1] = b',';
-                is_any = true;
+    for line in super::lines::lines(text) {
+        let source = text.get(line.clone()).unwrap_or_default();
+        if !source.contains('=') || source.len() > 2_000 {
+            continue;
+        }
+        for word in [" e ", " y ", " i ", " a ", " u "] {
+            for (at, _) in source.match_indices(word) {
+                let Some((_, value)) = source[..at].rsplit_once('=') else { continue };
+                let value = value.trim().trim_end_matches(['m', '°', 'c', ' ', '$']);
+                let behind = source[at + word.len()..].trim_start_matches(['$', '\\']);
+                let name = behind.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '{' | '}')));
+                let is_next = name
+                    .is_some_and(|n| n > 0 && n < 16 && behind[n..].trim_start_matches(' ').starts_with('='));
+                if is_next && value.parse::<f64>().is_ok() {
+                    bytes[line.start + at + 1] = b',';
+                    is_any = true;
+                }
             }
         }
     }
@@ -276,6 +280,8 @@ fn pointed(text: &str) -> Option<String> {
                 if is_index || is_pair {
                     return None;
                 }
+                // `[0,1]` is a row or an interval.
+                points += usize::from(before == Some(&b'[') && bytes.get(end + 1) == Some(&b']'));
                 let unit = text.get(end + 1..).unwrap_or_default().trim_start_matches(' ');
                 let word = unit.split(|c: char| !c.is_alphanumeric() && c != '°').next().unwrap_or_default();
                 has_unit |= matches!(word, "m" | "mm" | "cm" | "rad" | "°" | "kg" | "N" | "Nm");
