@@ -1,18 +1,44 @@
 //! Dynamic functions: their programs, words and vectors.
 
-use super::samples::{self, Sample};
+use super::samples;
 use super::words::text;
 use super::{Function, Unable, Wanted};
-use denavit::description::{Description, JointKind};
-use denavit::dynamics::{DynamicFunction, DynamicProgram, DynamicPrograms, Ground, Loads, Masses, NoProgram};
+use denavit::description::{Description, JointKind, Mechanism};
+use denavit::dynamics::{
+    DynamicFunction, DynamicProgram, DynamicPrograms, Ground, Link, Loads, Masses, NoProgram, OfTree,
+};
 use denavit::quantity::torque_unit;
 use denavit_emit::{Parameter, Routine, Vector};
 use denavit_program::{Composer, Extended, Program, Value};
-use denavit_symbolic::Symbol;
+use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashMap;
+
+/// What programs are of: an arm, or a whole tree.
+pub(super) struct Moving {
+    /// How the joint variables move, in order.
+    pub kinds: Vec<JointKind>,
+    /// The parameters of the table, with values for tests; a tree has none.
+    pub parameters: Vec<(Symbol, f64)>,
+}
+
+impl Moving {
+    /// An arm.
+    pub fn arm(d: &Description) -> Self {
+        let kinds = d.variables().into_iter().map(|v| v.kind).collect();
+        let values = samples::parameters(d);
+        Moving { kinds, parameters: d.parameters.iter().map(|p| p.symbol).zip(values).collect() }
+    }
+
+    /// A tree.
+    pub fn tree(m: &Mechanism) -> Self {
+        let kind = |j: usize| m.joints[j].kind.unwrap_or(JointKind::Revolute);
+        Moving { kinds: m.variables().into_iter().map(kind).collect(), parameters: vec![] }
+    }
+}
 
 /// All dynamic functions that are asked for.
 pub(super) struct Dynamic {
+    moving: Moving,
     all: DynamicPrograms,
     functions: Vec<One>,
     /// The vectors behind q: rates, and accelerations or torques.
@@ -79,7 +105,29 @@ impl Dynamic {
             return Err(Unable::Payload);
         }
         let all = DynamicPrograms::with_loads(d, masses, loads).map_err(Unable::Masses)?;
-        let variables = variables(d, &all, &functions);
+        Self::of(all, Moving::arm(d), functions).map(Some)
+    }
+
+    /// Functions of a whole tree.
+    ///
+    /// # Errors
+    /// If masses or values are missing; if energies are wanted from base parameters; if a joint moves no mass and accelerations are
+    /// wanted.
+    pub fn of_tree(
+        m: &Mechanism,
+        functions: Vec<DynamicFunction>,
+        masses: Option<Masses>,
+    ) -> Result<Self, Unable> {
+        let masses = masses.unwrap_or(Masses::Numbers);
+        if masses == Masses::Base && functions.contains(&DynamicFunction::Energy) {
+            return Err(Unable::Program(NoProgram::Energy));
+        }
+        let tree = OfTree::exact(m).map_err(Unable::Tree)?;
+        Self::of(DynamicPrograms::of_tree(&tree, masses), Moving::tree(m), functions)
+    }
+
+    fn of(all: DynamicPrograms, moving: Moving, functions: Vec<DynamicFunction>) -> Result<Self, Unable> {
+        let variables = variables(&moving, &all, &functions);
         let symbols: Vec<Symbol> =
             all.symbols[0].iter().chain(variables.iter().map(|v| &v.0)).copied().collect();
         let made = |function: DynamicFunction| {
@@ -89,8 +137,24 @@ impl Dynamic {
             Ok(One { function, program, made, reference })
         };
         let functions = functions.into_iter().map(made).collect::<Result<Vec<One>, Unable>>()?;
-        let parameters = parameters(d, &all, &functions);
-        Ok(Some(Dynamic { all, functions, variables, parameters }))
+        let parameters = parameters(&moving, &all, &functions);
+        Ok(Dynamic { moving, all, functions, variables, parameters })
+    }
+
+    /// The links of a tree, a line each: number, joint, the link before.
+    pub fn links_of_tree(&self, m: &Mechanism) -> Vec<String> {
+        let arm = &self.all.model.formulas.dynamics;
+        let joint = |row: usize| m.joints[row].name.as_str();
+        let line = |(k, link): (usize, &Link<Expr>)| match link.parent {
+            Some(parent) => format!("{:>2}  {} on {}", k + 1, joint(link.row), parent + 1),
+            None => format!("{:>2}  {}", k + 1, joint(link.row)),
+        };
+        arm.links.iter().enumerate().map(line).collect()
+    }
+
+    /// The joint variables.
+    pub fn joints(&self) -> &[Symbol] {
+        &self.all.symbols[0]
     }
 
     /// The functions with their operations, and what they rest on.
@@ -110,8 +174,8 @@ impl Dynamic {
     }
 
     /// With words and vectors.
-    pub fn routines(&self, d: &Description, configurations: &[Sample]) -> Vec<Routine<'_>> {
-        let states = self.states(d, configurations);
+    pub fn routines(&self, configurations: &[Vec<f64>]) -> Vec<Routine<'_>> {
+        let states = self.states(configurations);
         self.functions.iter().map(|one| self.routine(one, &states)).collect()
     }
 
@@ -121,16 +185,17 @@ impl Dynamic {
     }
 
     /// Configurations with rates, and accelerations or torques; the first at rest.
-    fn states(&self, d: &Description, configurations: &[Sample]) -> Vec<Vector> {
+    fn states(&self, configurations: &[Vec<f64>]) -> Vec<Vector> {
         let mut random = samples::Uniform::new();
-        let of = |k: usize, sample: &Sample, random: &mut samples::Uniform| {
+        let of = |k: usize, q: &Vec<f64>, random: &mut samples::Uniform| {
             let more =
                 self.variables.iter().map(|_| if k == 0 { 0.0 } else { 2.0 * random.between(-1.0, 1.0) });
-            let variables = sample.variables.iter().copied().chain(more).collect();
-            let parameters = samples::parameters(d).into_iter().chain(self.values()).collect();
+            let variables = q.iter().copied().chain(more).collect();
+            let table = self.moving.parameters.iter().map(|p| p.1);
+            let parameters = table.chain(self.values()).collect();
             Vector { variables, parameters, results: vec![] }
         };
-        configurations.iter().enumerate().map(|(k, sample)| of(k, sample, &mut random)).collect()
+        configurations.iter().enumerate().map(|(k, q)| of(k, q, &mut random)).collect()
     }
 
     fn routine<'a>(&'a self, one: &'a One, states: &[Vector]) -> Routine<'a> {
@@ -323,7 +388,7 @@ fn words(function: DynamicFunction, n: usize) -> (&'static str, Vec<usize>, Vec<
 }
 
 /// The vectors behind q that the functions read. One vector stands for accelerations and for torques where functions read either.
-fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunction]) -> Vec<(Symbol, String)> {
+fn variables(moving: &Moving, all: &DynamicPrograms, functions: &[DynamicFunction]) -> Vec<(Symbol, String)> {
     let most = functions.iter().map(|f| f.reads()).max().unwrap_or(1);
     let mut list = vec![];
     let wrench = all.wrench.iter().enumerate().map(|(k, &s)| {
@@ -332,11 +397,11 @@ fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunctio
         let axis = ["x", "y", "z"][k % 3];
         (s, format!("{what} that the tool exerts, along {axis} of the base, in {unit}"))
     });
-    let kinds = d.variables();
+    let kinds = &moving.kinds;
     let unit = |k: usize, turning: &str, sliding: &str| {
-        if kinds[k].kind == JointKind::Revolute { turning.to_string() } else { sliding.to_string() }
+        if kinds[k] == JointKind::Revolute { turning.to_string() } else { sliding.to_string() }
     };
-    let name = |k: usize| kinds[k].symbol.name();
+    let name = |k: usize| all.symbols[0][k].name();
     if most >= 2 {
         for (k, &s) in all.symbols[1].iter().enumerate() {
             list.push((s, format!("rate of {}, in {}", name(k), unit(k, "rad/s", "m/s"))));
@@ -345,9 +410,9 @@ fn variables(d: &Description, all: &DynamicPrograms, functions: &[DynamicFunctio
     if most >= 3 {
         let thirds = functions.iter().filter(|f| f.reads() == 3);
         let (driven, given): (Vec<&DynamicFunction>, Vec<_>) = thirds.partition(|f| f.is_driven());
-        for (k, v) in kinds.iter().enumerate() {
+        for (k, &kind) in kinds.iter().enumerate() {
             let rate = format!("acceleration of {}, in {}", name(k), unit(k, "rad/s^2", "m/s^2"));
-            let torque = format!("torque that drives {}, in {}", name(k), torque_unit(v.kind));
+            let torque = format!("torque that drives {}, in {}", name(k), torque_unit(kind));
             list.push(match (driven.is_empty(), given.is_empty()) {
                 (true, _) => (all.symbols[2][k], rate),
                 (_, true) => (all.symbols[3][k], torque),
@@ -400,11 +465,10 @@ fn values_of_links(all: &DynamicPrograms) -> FxHashMap<Symbol, f64> {
 }
 
 /// The parameters of the programs that the table has not.
-fn parameters(d: &Description, all: &DynamicPrograms, functions: &[One]) -> Vec<(Parameter, f64)> {
+fn parameters(moving: &Moving, all: &DynamicPrograms, functions: &[One]) -> Vec<(Parameter, f64)> {
     let formulas = &all.model.formulas;
     let links = values_of_links(all);
-    let of_table: FxHashMap<Symbol, f64> =
-        d.parameters.iter().map(|p| p.symbol).zip(samples::parameters(d)).collect();
+    let of_table: FxHashMap<Symbol, f64> = moving.parameters.iter().copied().collect();
     let value = |s: Symbol| of_table.get(&s).or_else(|| links.get(&s)).copied();
     let is_new = |s: &&Symbol| !of_table.contains_key(s);
     let mut list = vec![];

@@ -5,12 +5,14 @@ mod forward;
 mod general;
 mod inverse;
 mod samples;
+mod tree;
 mod words;
 
 pub use inverse::Inverse;
+pub use tree::generate_tree;
 
 use denavit::description::Description;
-use denavit::dynamics::{DynamicFunction, Loads, Masses, NoNumbers, NoProgram};
+use denavit::dynamics::{DynamicFunction, Loads, Masses, NoNumbers, NoProgram, Unknown};
 use denavit::forward::Proof;
 use denavit::inverse as ik;
 use denavit::robot::MissingValue;
@@ -159,6 +161,10 @@ pub enum Unable {
     Masses(NoNumbers),
     /// There is no program of a function.
     Program(NoProgram),
+    /// Of a whole tree: masses or values are missing.
+    Tree(Unknown),
+    /// A function that only a chain has is wanted of a whole tree.
+    OfChains(Wanted),
     /// A payload is wanted beside base parameters, of which it would be a part.
     Payload,
     /// A wrench of the tool, or a payload, is wanted, and no function feels it.
@@ -174,6 +180,8 @@ impl fmt::Display for Unable {
             Unable::Fixed(missing) => missing.fmt(f),
             Unable::Masses(none) => none.fmt(f),
             Unable::Program(none) => none.fmt(f),
+            Unable::Tree(why) => why.fmt(f),
+            Unable::OfChains(wanted) => write!(f, "{wanted} is of a chain, not of a whole tree"),
             Unable::Payload => f.write_str("base parameters have what the tool carries in them"),
             Unable::Loads { .. } => f.write_str("no function that is asked for feels it"),
         }
@@ -274,7 +282,8 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
             vector.parameters.extend(&values);
         }
         solvers.iter_mut().flat_map(|s| &mut s.vectors).for_each(|v| v.parameters.extend(&values));
-        routines.extend(dynamic.routines(d, &samples));
+        let configurations: Vec<Vec<f64>> = samples.iter().map(|s| s.variables.clone()).collect();
+        routines.extend(dynamic.routines(&configurations));
     }
     let library = Library {
         title: d.name.clone(),

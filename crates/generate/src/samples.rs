@@ -50,20 +50,29 @@ pub(super) fn parameters(d: &Description) -> Vec<f64> {
 
 /// Zero, quarter turns, and random configurations inside (−π, π) and half a metre.
 pub(super) fn samples(d: &Description) -> Vec<Sample> {
-    let all = special_angles(d).into_iter().chain(random(d, RANDOM));
-    all.map(|q| sample(d, q)).collect()
+    configurations(&kinds(d)).into_iter().map(|q| sample(d, q)).collect()
+}
+
+/// The same of joints that move so.
+pub(super) fn configurations(kinds: &[JointKind]) -> Vec<Vec<f64>> {
+    special_angles(kinds).into_iter().chain(random(kinds, RANDOM)).collect()
+}
+
+fn kinds(d: &Description) -> Vec<JointKind> {
+    d.variables().into_iter().map(|v| v.kind).collect()
 }
 
 /// The first of [`samples`].
 pub(super) fn few(d: &Description) -> Vec<Sample> {
-    let all = special_angles(d).into_iter().chain(random(d, RANDOM / 2));
+    let kinds = kinds(d);
+    let all = special_angles(&kinds).into_iter().chain(random(&kinds, RANDOM / 2));
     all.map(|q| sample(d, q)).collect()
 }
 
 /// Random configurations with a joint at zero, each joint in turn.
 pub(super) fn special(d: &Description) -> Vec<Sample> {
     let n = d.variables().len();
-    let configurations = random(d, RANDOM / 2 + n).split_off(RANDOM / 2);
+    let configurations = random(&kinds(d), RANDOM / 2 + n).split_off(RANDOM / 2);
     let zeroed = configurations.into_iter().enumerate().map(|(k, mut q)| {
         q[k] = 0.0;
         sample(d, q)
@@ -72,14 +81,13 @@ pub(super) fn special(d: &Description) -> Vec<Sample> {
 }
 
 /// Zero and quarter turns.
-fn special_angles(d: &Description) -> Vec<Vec<f64>> {
-    let variables = d.variables();
+fn special_angles(kinds: &[JointKind]) -> Vec<Vec<f64>> {
     let quarters = |k: usize, kind| match kind {
         JointKind::Revolute => [FRAC_PI_2, PI, -FRAC_PI_2, 0.0][k % 4],
         JointKind::Prismatic => [0.125, 0.5, 0.25, 0.0][k % 4],
     };
-    let turned = |shift| variables.iter().enumerate().map(|(k, v)| quarters(k + shift, v.kind)).collect();
-    [vec![0.0; variables.len()]].into_iter().chain((0..3).map(turned)).collect()
+    let turned = |shift| kinds.iter().enumerate().map(|(k, kind)| quarters(k + shift, *kind)).collect();
+    [vec![0.0; kinds.len()]].into_iter().chain((0..3).map(turned)).collect()
 }
 
 /// Knuth's linear congruential generator, the upper bits.
@@ -99,14 +107,13 @@ impl Uniform {
     }
 }
 
-fn random(d: &Description, count: usize) -> Vec<Vec<f64>> {
+fn random(kinds: &[JointKind], count: usize) -> Vec<Vec<f64>> {
     let mut random = Uniform::new();
     let mut value = |kind| match kind {
         JointKind::Revolute => PI * random.between(-1.0, 1.0),
         JointKind::Prismatic => 0.5 * random.between(0.0, 1.0),
     };
-    let variables = d.variables();
-    (0..count).map(|_| variables.iter().map(|v| value(v.kind)).collect()).collect()
+    (0..count).map(|_| kinds.iter().map(|&kind| value(kind)).collect()).collect()
 }
 
 /// A configuration with parameters, and a bound on distances.

@@ -102,13 +102,18 @@ pub(super) fn parameter(d: &Description, symbol: Symbol, value: Option<Expr>) ->
 /// What a joint variable is, and its unit.
 pub(super) fn about_variable(d: &Description, symbol: Symbol, kind: JointKind) -> String {
     let row = d.rows.iter().find(|r| r.variable.is_some_and(|v| v.symbol == symbol));
-    let what = match kind {
-        JointKind::Revolute => "angle of a revolute joint, in rad",
-        JointKind::Prismatic => "displacement of a prismatic joint, in m",
-    };
+    let what = about_kind(kind);
     match row.and_then(|r| r.name.as_ref()) {
         Some(name) => format!("{what} ({name})"),
         None => what.into(),
+    }
+}
+
+/// What the variable of a joint is, and its unit.
+pub(super) fn about_kind(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "angle of a revolute joint, in rad",
+        JointKind::Prismatic => "displacement of a prismatic joint, in m",
     }
 }
 

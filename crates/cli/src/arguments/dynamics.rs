@@ -66,13 +66,14 @@ pub struct DynamicsArguments {
     pub derivatives: bool,
     /// All joints of a tree of bodies (a URDF, an MJCF or a tree of rows) and not one chain through it: the root stands still. -q, --qd,
     /// --qdd and --tau have a value a joint, branch after branch as `fk --frames all` has them; -q takes names, too, as in -q "elbow=0.5"
-    #[arg(long, conflicts_with_all = ["input", "simulate", "payload", "at", "wrench", "symbolic", "explain", "base", "tip"])]
+    #[arg(long, conflicts_with_all = ["input", "simulate", "payload", "at", "wrench", "explain", "base", "tip"])]
     pub whole: bool,
     /// The acceleration of gravity in the base: x, -x, y, -y, z, -z (of 9.81 m/s²), none, or three components (m/s² where
     /// none has a unit)
     #[arg(long, value_name = "DIRECTION", allow_hyphen_values = true)]
     pub gravity: Option<String>,
-    /// Print formulas: base parameters, a program for the torques with its cost, and of arms with up to three joints A, C q̇ and Q
+    /// Print formulas: base parameters, a program for the torques with its cost, and of arms with up to three joints A, C q̇ and Q;
+    /// with --whole those of a tree
     #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub symbolic: bool,
     /// Explain the derivation: the bodies, the groupings, the recursion outward and inward with a name for every quantity, and on

@@ -426,6 +426,10 @@ pub struct GenerateArguments {
     /// those of its links otherwise
     #[arg(long, value_enum)]
     pub masses: Option<MassesName>,
+    /// Dynamic functions of all joints of a tree of bodies (a URDF, an MJCF or a tree of rows), q1, q2, … in their order, and not of
+    /// one chain through it: the root stands still
+    #[arg(long, conflicts_with_all = ["given", "wrench", "payload", "base", "tip"])]
+    pub whole: bool,
     /// For dynamic functions: take a wrench that the tool exerts (the force FX, FY, FZ and the moment CX, CY, CZ, along the axes of
     /// the base), behind the other variables
     #[arg(long)]

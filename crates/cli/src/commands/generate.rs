@@ -1,6 +1,8 @@
 //! `denavit generate`: source code that builds and tests itself.
 
 use crate::arguments::GenerateArguments;
+use crate::commands::dynamics::tree;
+use crate::commands::fk::tree::bodies;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
@@ -39,41 +41,10 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     if arguments.float && !matches!(language, Language::C | Language::Cuda) {
         return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
     }
-    let description = load::robot(&arguments.robot)?;
-    let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
-    let options = PackageOptions {
-        language,
-        functions,
-        inverse: inverse::InverseOptions { goal: arguments.goal.into(), given },
-        precision: if arguments.float { Precision::Single } else { Precision::Double },
-        name: Some(
-            arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, &description.name)),
-        ),
-        masses: arguments.masses.map(Into::into),
-        loads: Loads { wrench: arguments.wrench, payload: arguments.payload },
-        fixed: arguments.fixed,
-    };
-    let generated = denavit_generate::generate(&description, &options).map_err(|why| {
-        Failure::Input(match why {
-            Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
-            Unable::Program(NoProgram::Energy) => {
-                format!("error: --masses base: {why}\n  = hint: leave energy out, or --masses links")
-            }
-            Unable::Program(NoProgram::Singular(_)) => format!(
-                "error: {why}\n  = hint: give its link a mass and an inertia, or the joint a rotor, or leave acceleration out"
-            ),
-            Unable::Payload => {
-                format!("error: --payload: {why}\n  = hint: --masses links takes its numbers beside those of the links")
-            }
-            Unable::Loads { is_wrench } => {
-                let load = if is_wrench { "--wrench" } else { "--payload" };
-                format!("error: {load}: {why}\n  = hint: torque, bias and acceleration do")
-            }
-            Unable::Masses(none) => {
-                format!("error: --masses numbers: {none}\n  = hint: --masses links takes them as parameters")
-            }
-        })
-    })?;
+    let generated = match arguments.whole {
+        true => of_tree(arguments, functions, language),
+        false => of_chain(arguments, functions, language),
+    }?;
     if let Some(why) = &generated.refused {
         if generated.files.is_empty() {
             return Err(Failure::Unsupported(format!("ik: {why}")));
@@ -94,6 +65,85 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         write!(out, "{}", report(&generated, language, &arguments.output))?;
     }
     Ok(())
+}
+
+/// Functions of a chain.
+fn of_chain(
+    arguments: &GenerateArguments,
+    functions: Vec<Wanted>,
+    language: Language,
+) -> Result<Generated, Failure> {
+    let description = load::robot(&arguments.robot)?;
+    let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
+    let options = PackageOptions {
+        inverse: inverse::InverseOptions { goal: arguments.goal.into(), given },
+        ..options(arguments, functions, language, &description.name)
+    };
+    denavit_generate::generate(&description, &options).map_err(|why| refused(&why, arguments))
+}
+
+/// Functions of a whole tree.
+fn of_tree(
+    arguments: &GenerateArguments,
+    functions: Vec<Wanted>,
+    language: Language,
+) -> Result<Generated, Failure> {
+    let file = &arguments.robot.robot;
+    let tree = load::mechanism(&arguments.robot)?
+        .ok_or_else(|| Failure::Usage(format!("--whole: {file} is no tree: leave it away")))?;
+    let m = bodies(&tree, file)?;
+    let options = options(arguments, functions, language, &m.name);
+    denavit_generate::generate_tree(&m, &options).map_err(|why| refused(&why, arguments))
+}
+
+fn options(
+    arguments: &GenerateArguments,
+    functions: Vec<Wanted>,
+    language: Language,
+    title: &str,
+) -> PackageOptions {
+    PackageOptions {
+        language,
+        functions,
+        inverse: inverse::InverseOptions { goal: arguments.goal.into(), given: None },
+        precision: if arguments.float { Precision::Single } else { Precision::Double },
+        name: Some(arguments.name.clone().unwrap_or_else(|| name_of(&arguments.robot.robot, title))),
+        masses: arguments.masses.map(Into::into),
+        loads: Loads { wrench: arguments.wrench, payload: arguments.payload },
+        fixed: arguments.fixed,
+    }
+}
+
+/// Why nothing is generated.
+fn refused(why: &Unable, arguments: &GenerateArguments) -> Failure {
+    Failure::Input(match why {
+        Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
+        Unable::Program(NoProgram::Energy) => {
+            format!("error: --masses base: {why}\n  = hint: leave energy out, or --masses links")
+        }
+        Unable::Program(NoProgram::Singular(_)) => format!(
+            "error: {why}\n  = hint: give its link a mass and an inertia, or the joint a rotor, or leave acceleration out"
+        ),
+        Unable::Tree(why) => return tree::unknown(&arguments.robot.robot, why),
+        Unable::OfChains(_) => {
+            format!(
+                "error: --whole: {why}\n  = hint: --tip names the end of a chain; a tree has torque, inertia, bias, gravity, \
+                     acceleration, energy and derivatives"
+            )
+        }
+        Unable::Payload => {
+            format!(
+                "error: --payload: {why}\n  = hint: --masses links takes its numbers beside those of the links"
+            )
+        }
+        Unable::Loads { is_wrench } => {
+            let load = if *is_wrench { "--wrench" } else { "--payload" };
+            format!("error: {load}: {why}\n  = hint: torque, bias and acceleration do")
+        }
+        Unable::Masses(none) => {
+            format!("error: --masses numbers: {none}\n  = hint: --masses links takes them as parameters")
+        }
+    })
 }
 
 /// Joint variables (from 0) by name or number.

@@ -434,6 +434,14 @@ fn a_whole_tree_is_answered() {
     assert!(numbers(&back["accelerations"]).iter().all(|a| a.abs() < 1e-6), "{}", back["accelerations"]);
     let shown = text(&fed(&["dynamics", baxter, "--whole", "-q", "left_s0=0.3"], "").stdout);
     assert!(shown.contains("left_s0 = ") && shown.contains("Inertia matrix"), "{shown}");
+    // Formulas of all of it.
+    let legs = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/solo12.urdf");
+    let formulas = json(&[legs, "--whole", "--symbolic"]);
+    assert_eq!((formulas["proof"].as_str(), formulas["minimal"].as_bool()), (Some("sampled"), Some(true)));
+    let parameters = formulas["base_parameters"].as_array().expect("a list");
+    assert!(parameters.len() > 40, "{parameters:?}");
+    let shown = text(&fed(&["dynamics", legs, "--whole", "--symbolic"], "").stdout);
+    assert!(shown.contains("behind joint HL_KFE, on link 8"), "{shown}");
     refused(&[baxter, "--whole"], 2, "say where the joints are");
     refused(&[baxter, "--whole", "-q", "left_s0=0", "--qd", "1,2"], 2, "--qd: 2 values given");
     refused(&["ur5", "--whole", "-q", "0,0,0,0,0,0"], 2, "is no tree");

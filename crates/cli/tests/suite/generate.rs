@@ -255,6 +255,35 @@ fn dynamics_are_generated() {
     refused(&generate("torque", "numbers"), 3, "the description says nothing of masses");
 }
 
+/// Functions of a whole tree: of all its joints, by their names; what only a chain has is refused.
+#[test]
+fn whole_trees_are_generated() {
+    let tree = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/solo12.urdf");
+    let target = folder("solo12");
+    let answer =
+        generated(tree, "c", &target, &["--whole", "--functions", "torque,inertia,torque_with_derivatives"]);
+    let functions = answer["functions"].as_array().expect("a list");
+    assert_eq!(functions.len(), 3);
+    for f in functions {
+        assert!(f["claim"].as_str().unwrap().contains("equal to Lagrange's equations"), "{f}");
+    }
+    let all = texts(&target, &answer).concat();
+    for word in ["q[36]", "A whole tree", "HL_KFE on"] {
+        assert!(all.contains(word), "{word}");
+    }
+    let path = target.to_str().unwrap().to_string();
+    let of = |robot: &'static str, more: &[&'static str]| -> Vec<String> {
+        let start = ["generate", robot, "-l", "c", "-o", &path, "--force", "--whole"].map(str::to_string);
+        start.into_iter().chain(more.iter().map(|w| (*w).to_string())).collect()
+    };
+    let said = |all: Vec<String>, code: i32, word: &str| {
+        let all: Vec<&str> = all.iter().map(String::as_str).collect();
+        refused(&all, code, word);
+    };
+    said(of(tree, &["--functions", "fk"]), 3, "fk is of a chain, not of a whole tree");
+    said(of("ur5", &["--functions", "torque"]), 2, "ur5 is no tree");
+}
+
 /// Loads as arguments, and what a program divides by.
 #[test]
 fn loads_are_arguments() {

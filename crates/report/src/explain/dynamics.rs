@@ -2,18 +2,32 @@
 
 use crate::document::{Block, Factor, Line, Math, Proof};
 use crate::words::{Tongue, Wording};
-use denavit::description::{Convention, Description, Row};
+use denavit::description::{Convention, Description, JointKind, Mechanism, Row};
 use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, given};
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
 
 /// The robot's names, those of masses, base parameters and rates, and those of the program's steps.
 pub fn dynamics_vocabulary(d: &Description, model: &DynamicModel) -> Vocabulary {
+    with_names(d.vocabulary(), model)
+}
+
+/// The names of a whole tree's model, whose joints move so.
+pub fn tree_dynamics_vocabulary(m: &Mechanism, model: &DynamicModel) -> Vocabulary {
+    let joints = (1..).zip(model.formulas.q.iter().zip(m.variables()));
+    let names = joints.fold(Vocabulary::new(), |v, (number, (&s, j))| match m.joints[j].kind {
+        Some(JointKind::Prismatic) => v.sliding(number, s),
+        Some(JointKind::Revolute) | None => v.angle(number, s),
+    });
+    with_names(names, model)
+}
+
+fn with_names(names: Vocabulary, model: &DynamicModel) -> Vocabulary {
     let formulas = &model.formulas;
     let own = formulas.parameters.iter().map(|p| p.symbol);
     let base = model.base.parameters.iter().map(|p| p.symbol);
     let all = own.chain(base).chain(formulas.qd.iter().chain(&formulas.qdd).copied());
-    let names = all.fold(d.vocabulary(), |v, s| v.symbol(&s.name()));
+    let names = all.fold(names, |v, s| v.symbol(&s.name()));
     model.torques.steps().into_iter().fold(names, |v, step| v.symbol(&step.name))
 }
 
@@ -27,7 +41,28 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
         Block::Heading(2, Line::new(words.base_title())),
     ];
     blocks.extend(base(model, words));
-    blocks.extend(torques(d, model, words));
+    blocks.extend(torques(model, words));
+    blocks.extend(parts(d, model, words));
+    blocks
+}
+
+/// The same of a whole tree: its links, base parameters, the torques as a program.
+pub fn tree_dynamics_document(m: &Mechanism, model: &DynamicModel, language: Tongue) -> Vec<Block> {
+    let words = language.words();
+    let arm = &model.formulas.dynamics;
+    let links = arm.links.iter().enumerate().map(|(k, link)| {
+        let joint = &m.joints[link.row].name;
+        Line::new(words.link_of_tree(k + 1, joint, link.parent.map(|p| p + 1)))
+    });
+    let mut blocks = vec![
+        Block::Heading(1, Line::new(words.dynamics_title(&m.name))),
+        Block::List(links.collect()),
+        paragraph(words.link_parameters(false)),
+        Block::Paragraph(words.gravity_is(arm.gravity.0.map(Math::Expr))),
+        Block::Heading(2, Line::new(words.base_title())),
+    ];
+    blocks.extend(base(model, words));
+    blocks.extend(torques(model, words));
     blocks
 }
 
@@ -84,7 +119,8 @@ pub fn dynamics_explanation(
     blocks.push(paragraph(words.recursion_cost(&model.base.inverse.count(), recursion.ground)));
     blocks.push(title(words.short_title()));
     blocks.push(paragraph(words.short()));
-    blocks.extend(told(d, model, words));
+    blocks.extend(told(model, words));
+    blocks.extend(parts(d, model, words));
     blocks
 }
 
@@ -102,24 +138,23 @@ fn mark(ground: Ground) -> Proof {
     }
 }
 
-/// The program of the torques, and their parts.
-fn torques(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+/// The program of the torques.
+fn torques(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(2, Line::new(words.torques_title()))];
     for step in model.torques.steps() {
         blocks.push(formula(Expr::symbol(&step.name), step.value));
     }
-    blocks.extend(told(d, model, words));
+    blocks.extend(told(model, words));
     blocks
 }
 
-/// What the program of the torques costs and rests on, by what it divides, and the parts of the torques.
-fn told(d: &Description, model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
+/// What the program of the torques costs and rests on, and by what it divides.
+fn told(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
     let mut blocks = vec![paragraph(words.torques_cost(&model.torques.count(), model.ground))];
     let divisors = model.divisors();
     if !divisors.is_empty() {
         blocks.push(Block::Paragraph(words.divides_by(divisors.into_iter().map(Math::Expr).collect())));
     }
-    blocks.extend(parts(d, model, words));
     blocks
 }
 

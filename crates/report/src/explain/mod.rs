@@ -7,7 +7,10 @@ mod dynamics;
 mod inverse;
 mod velocity;
 
-pub use dynamics::{dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary};
+pub use dynamics::{
+    dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
+    tree_dynamics_document, tree_dynamics_vocabulary,
+};
 pub use inverse::{
     Bound, Case, Component, Consequence, Explained, Explanation, Kind, Remark, Source, Statement,
 };

@@ -73,6 +73,9 @@ pub trait Dynamics {
     /// The heading of a link, from 1.
     fn link(&self, link: usize) -> String;
 
+    /// That a link of a tree moves with a joint, on another link or on the root.
+    fn link_of_tree(&self, link: usize, joint: &str, parent: Option<usize>) -> String;
+
     /// On what it rests that velocities and accelerations of a link are these.
     fn motion_ground(&self, ground: Ground) -> String;
 

@@ -69,11 +69,20 @@ pub struct BaseModel {
 impl BaseModel {
     /// The base parameters of an arm whose links have names for their numbers ([`Formulas::named`]).
     pub fn derive(d: &Description, formulas: &Formulas) -> Self {
+        Self::in_order(&order(d, formulas), formulas)
+    }
+
+    /// The same of a whole tree.
+    pub fn of_tree(formulas: &Formulas) -> Self {
+        Self::in_order(&formulas.parameters.iter().map(|p| p.symbol).collect::<Vec<_>>(), formulas)
+    }
+
+    /// With symbols in an order in which they are written.
+    fn in_order(order: &[Symbol], formulas: &Formulas) -> Self {
         let links = grouped(&formulas.dynamics);
         let (named, mut parameters) = named(&links, formulas);
         let inverse = torques(formulas, &named, &parameters);
         let live: FxHashSet<Symbol> = inputs(&inverse).collect();
-        let order = order(d, formulas);
         parameters.retain(|p| live.contains(&p.symbol));
         // What no torque reads is 0, so that nobody is asked for its value.
         let is_read = |e: Expr| e.as_symbol().is_none_or(|s| live.contains(&s));
@@ -81,7 +90,7 @@ impl BaseModel {
             named.iter().map(|l| l.with(|_, e| if is_read(e) { e } else { Expr::int(0) })).collect();
         let inverse = torques(formulas, &named, &parameters);
         for p in parameters.iter_mut().filter(|p| p.is_grouped) {
-            p.value = readable::simplify(p.value, &order).map_or(p.value, |s| s.expr);
+            p.value = readable::simplify(p.value, order).map_or(p.value, |s| s.expr);
         }
         let minimality = minimality(&inverse, &parameters);
         let mut used: FxHashMap<Symbol, Fate> = FxHashMap::default();

@@ -52,6 +52,18 @@ impl DynamicModel {
         Self::of(d, Formulas::in_numbers(d))
     }
 
+    /// The model of a whole tree, by the recursion in base parameters: no frames are searched.
+    pub fn of_tree(formulas: Formulas) -> Self {
+        let base = BaseModel::of_tree(&formulas);
+        let short = base.inverse.shortened(0);
+        let ground = base.ground_of_tree(&formulas, &short);
+        let (torques, ground) = match ground {
+            Ground::Failed => (base.inverse.clone(), base.ground_of_tree(&formulas, &base.inverse)),
+            _ => (short, ground),
+        };
+        DynamicModel { formulas, base, torques, ground, parts: None }
+    }
+
     /// The model of formulas.
     pub(super) fn of(d: &Description, formulas: Formulas) -> Self {
         let base = BaseModel::derive(d, &formulas);

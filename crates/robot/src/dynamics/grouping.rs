@@ -114,7 +114,7 @@ fn told_by(
         let (given, mass) = match link.kind {
             JointKind::Revolute if x == y => {
                 gives[j] = Gives::OnAxis;
-                let given = chosen(j, &own, j.checked_sub(1).map(|p| &all[p]));
+                let given = chosen(j, &own, link.parent.map(|p| &all[p]));
                 let less = |a: Expr, b: Expr| match (b.is_zero(), a == b) {
                     (true, _) => a,
                     (_, true) => o,
@@ -147,7 +147,7 @@ fn told_by(
                 (Body { inertia: own.inertia, first_moment, mass: o }, Vector([o; 3]))
             }
         };
-        if let Some(before) = j.checked_sub(1) {
+        if let Some(before) = link.parent {
             let turned = diagonal(&link.before.rotation, mass).unwrap_or(mass);
             let place = match link.kind {
                 JointKind::Revolute => link.before,
@@ -192,7 +192,11 @@ fn diagonal(r: &Rotation<Expr>, mass: Vector<Expr>) -> Option<Vector<Expr>> {
 fn is_plan(arm: &Dynamics<Expr>, slide: usize) -> bool {
     let mut r = arm.links[slide].before.rotation;
     let mut turns = 0;
-    for link in arm.links[..slide].iter().rev() {
+    let (mut next, mut way) = (arm.links[slide].parent, vec![slide]);
+    while let Some(k) = next {
+        let link = &arm.links[k];
+        next = link.parent;
+        way.push(k);
         if link.kind == JointKind::Revolute {
             // The slide's direction in the frame of a link that turns: a turn about z leaves ±z alone.
             let z = r.z();
@@ -207,5 +211,7 @@ fn is_plan(arm: &Dynamics<Expr>, slide: usize) -> bool {
     }
     let one = Expr::int(1);
     let apart = |l: &Link<Expr>| diagonal(&l.before.rotation, Vector([one, one, Expr::int(0)])).is_some();
-    turns > 0 && arm.links[1..=slide].iter().all(apart)
+    // The first link on the way stands in the base.
+    way.pop();
+    turns > 0 && way.iter().all(|&k| apart(&arm.links[k]))
 }

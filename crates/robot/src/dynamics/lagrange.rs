@@ -11,8 +11,8 @@ use crate::description::{Description, JointKind};
 use crate::forward::{Proof, prove};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::random::Random;
-use denavit_program::{Graph, Program, Residue, Value};
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_program::{Composer, Graph, Program, Residue, Value};
+use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// On what it rests that torques are those of Lagrange's equations.
@@ -75,6 +75,37 @@ pub fn lagrange(formulas: &Formulas) -> Program {
     program(&[&state[..], &formulas.qdd].concat(), &torques)
 }
 
+/// The same of many joints, where second derivatives of the energy, one by one, would be too many: d/dt ∂T/∂q̇ as what the momenta
+/// change by along q̇ and q̈.
+fn lagrange_along(formulas: &Formulas) -> Program {
+    let arm = &formulas.dynamics;
+    let n = arm.joints();
+    let [q, qd, _] = formulas.state();
+    let (kinetic, potential) = energies(arm, &q, &qd);
+    let state = [&formulas.q[..], &formulas.qd].concat();
+    let slopes = program(&state, &[kinetic, potential]).jacobian();
+    let momenta = slopes.only(&(n..2 * n).collect::<Vec<_>>()).tangent();
+    let mut all = Composer::new(&[&state[..], &formulas.qdd].concat(), slopes.parameters());
+    let along: FxHashMap<Symbol, Value> = momenta.variables()[2 * n..]
+        .iter()
+        .zip(formulas.qd.iter().chain(&formulas.qdd))
+        .map(|(&rate, &s)| (rate, all.graph().input(s)))
+        .collect();
+    let changes = all.copy(&momenta, |s| along.get(&s).copied());
+    let slopes = all.copy(&slopes, |_| None);
+    let graph = all.graph();
+    let torques: Vec<(String, Value)> = (0..n)
+        .map(|j| {
+            let rate = Expr::from(formulas.qd[j]);
+            let rubbed = graph.trace(arm.drives[j].viscous * rate + arm.drives[j].coulomb * rate.sign());
+            let moving = graph.sub(changes[n + j], slopes[j]);
+            let weighed = graph.add(moving, slopes[2 * n + j]);
+            (format!("t{}", j + 1), graph.add(weighed, rubbed))
+        })
+        .collect();
+    all.finish(&torques)
+}
+
 impl BaseModel {
     /// On what it rests that a program, whose results are the torques in base parameters, gives those of Lagrange's equations. Where
     /// polynomials prove it, which are had from velocities in the links' frames, the values are those of [`lagrange`], too.
@@ -88,6 +119,20 @@ impl BaseModel {
             Ground::Failed => Ground::Failed,
             _ => Ground::Proved,
         }
+    }
+
+    /// The same of a tree: by the canonical form of the product of the links' transforms where it has few joints, otherwise by values at
+    /// random states.
+    pub(super) fn ground_of_tree(&self, formulas: &Formulas, torques: &Program) -> Ground {
+        let wanted = lagrange_along(formulas);
+        if formulas.dynamics.joints() <= EXPANDED {
+            let base: FxHashMap<Symbol, Expr> = self.parameters.iter().map(|p| (p.symbol, p.value)).collect();
+            let own = torques.formulas().into_iter().map(|e| e.substitute(|s| base.get(&s).copied()));
+            if own.zip(wanted.formulas()).all(|(a, b)| equal(a, b).is_equal()) {
+                return Ground::Proved;
+            }
+        }
+        self.at_states(formulas, torques, &wanted)
     }
 
     /// On what it rests that the results of a program, in base parameters, are those of another, from q, q̇ and q̈.
@@ -187,9 +232,11 @@ fn energies(arm: &Dynamics<Expr>, q: &[Expr], qd: &[Expr]) -> (Expr, Expr) {
     let o = Expr::int(0);
     let half = Expr::from(Rational::new(1, 2));
     let still = Rotation::from_rows([[o; 3]; 3]);
-    let mut at = Moving { x: Transform::identity(), turning: still, velocity: Vector([o; 3]) };
+    let base = Moving { x: Transform::identity(), turning: still, velocity: Vector([o; 3]) };
+    let mut all: Vec<Moving> = vec![];
     let (mut twice, mut weight) = (o, Vector([o; 3]));
     for (link, rate) in arm.links.iter().zip(arm.rates(qd)) {
+        let before = link.parent.map_or(&base, |p| &all[p]);
         let place = link.place(q);
         let (turning, velocity) = match link.kind {
             JointKind::Revolute => {
@@ -200,10 +247,10 @@ fn energies(arm: &Dynamics<Expr>, q: &[Expr], qd: &[Expr]) -> (Expr, Expr) {
             }
             JointKind::Prismatic => (still, link.before.rotation.z().scale(rate)),
         };
-        let r = at.x.rotation;
-        let turned = sum(&(at.turning * place.rotation), &(r * turning));
-        let moved = at.velocity + at.turning * place.translation + r * velocity;
-        at = Moving { x: at.x * place, turning: turned, velocity: moved };
+        let r = before.x.rotation;
+        let turned = sum(&(before.turning * place.rotation), &(r * turning));
+        let moved = before.velocity + before.turning * place.translation + r * velocity;
+        let at = Moving { x: before.x * place, turning: turned, velocity: moved };
         let [xx, xy, xz, yy, yz, zz] = link.body.inertia;
         let trace = (xx + yy + zz) * half;
         let second =
@@ -215,6 +262,7 @@ fn energies(arm: &Dynamics<Expr>, q: &[Expr], qd: &[Expr]) -> (Expr, Expr) {
         let crossed = at.velocity.dot(at.turning * first);
         twice = twice + spin + (crossed + crossed) + mass * at.velocity.dot(at.velocity);
         weight = weight + at.x.translation.scale(mass) + at.x.rotation * first;
+        all.push(at);
     }
     for (drive, &rate) in arm.drives.iter().zip(qd) {
         twice = twice + drive.rotor * rate * rate;

@@ -5,7 +5,7 @@
 //! along axis k, in every convention alike, and what is fixed to a link is part of it. Torques are newton metres, newtons for
 //! joints that slide; the joint variables radians and metres, their rates per second.
 //!
-//! - [`Dynamics`]: the links with their masses, the drives, gravity; over numbers or formulas; [`OfTree`]: of a whole tree, in numbers.
+//! - [`Dynamics`]: the links with their masses, the drives, gravity; over numbers or formulas; [`OfTree`]: of a whole tree.
 //! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
 //! - [`inertia_matrix`]: A(q), by composite bodies.
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.

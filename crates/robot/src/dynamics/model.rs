@@ -1,5 +1,6 @@
 //! An arm with masses: its moving links, its drives, gravity.
 
+use super::tree::OfTree;
 use crate::description::{Description, JointKind, Parameter, Row};
 use crate::geometry::{Axis, Body, PARAMETERS, Rotation, Transform, Vector};
 use crate::mechanism::{Affine, Lengths, MissingValue, MovingAxes, Robot};
@@ -36,7 +37,7 @@ pub struct Link<T> {
     pub value: Affine<T>,
     /// Its mass with that of everything fixed to it, in its frame: the one behind the motion.
     pub body: Body<T>,
-    /// The row of the table that its axis stands in, from 0.
+    /// The row of the table that its axis stands in, or its joint in the tree, from 0.
     pub row: usize,
 }
 
@@ -294,6 +295,29 @@ impl Formulas {
         formulas.dynamics = formulas.dynamics.map(|e| e.substitute(value));
         formulas.parameters.extend(own.into_iter().filter(|p| p.value.is_none()));
         formulas
+    }
+
+    /// The model of a whole tree with its numbers: q1, q2, … are the values of its joints, in order.
+    pub fn of_tree(tree: &OfTree<Expr>) -> Self {
+        let n = tree.joints.len();
+        let [q, qd, qdd] = ["q", "qd", "qdd"]
+            .map(|letters| (1..=n).map(|k| Symbol::new(&format!("{letters}{k}"))).collect::<Vec<Symbol>>());
+        let dynamics = tree.dynamics.clone();
+        Formulas { dynamics, q, qd, qdd, parameters: vec![], is_generic: false, payload: vec![] }
+    }
+
+    /// The same with a symbol for each number that is not 0 of a link, XX1 …, with that value.
+    #[must_use]
+    pub fn with_names(mut self) -> Self {
+        let mut names = Names { parameters: std::mem::take(&mut self.parameters) };
+        for (k, link) in self.dynamics.links.iter_mut().enumerate() {
+            let given = link.body.parameters();
+            link.body = Body::of(std::array::from_fn(|p| match given[p].is_zero() {
+                true => given[p],
+                false => names.symbol(&format!("{}{}", PARAMETERS[p], k + 1), Some(given[p])),
+            }));
+        }
+        Formulas { parameters: names.parameters, ..self }
     }
 
     fn with(

@@ -1,19 +1,19 @@
-//! A whole tree of bodies in numbers: a link for each joint that moves, on the link that it stands on, and what is fixed to it part of
-//! it. All algorithms over numbers go for it as for an arm; formulas are derived of arms alone. What stands on the root moves with
-//! nothing: the root stands still.
+//! A whole tree of bodies: a link for each joint that moves, on the link that it stands on, and what is fixed to it part of it. All
+//! algorithms over [`Scalar`] go for it as for an arm. What stands on the root moves with nothing: the root stands still.
 
 use super::model::{Drive, Dynamics, GRAVITY, Link};
 use crate::description::Mechanism;
-use crate::geometry::{Body, Rotation, Transform, Vector};
+use crate::geometry::{Axis, Body, Rotation, Transform, Vector};
 use crate::mechanism::Affine;
-use denavit_symbolic::Expr;
+use crate::scalar::Scalar;
+use denavit_symbolic::{Expr, Rational};
 use std::fmt;
 
 /// A tree with masses.
 #[derive(Clone, PartialEq, Debug)]
-pub struct OfTree {
+pub struct OfTree<T> {
     /// Its links, with no tool.
-    pub dynamics: Dynamics<f64>,
+    pub dynamics: Dynamics<T>,
     /// The joints that move by themselves, by their numbers in the mechanism: the variables.
     pub joints: Vec<usize>,
 }
@@ -44,53 +44,97 @@ impl fmt::Display for Unknown {
 
 impl std::error::Error for Unknown {}
 
-impl OfTree {
-    /// The dynamics of all joints that move; gravity along −z of the root where the mechanism says nothing of it.
+impl OfTree<f64> {
+    /// The dynamics of all joints that move, in numbers; gravity along −z of the root where the mechanism says nothing of it.
     ///
     /// # Errors
     /// If masses or values are missing, or an axis has no direction.
     pub fn new(m: &Mechanism) -> Result<Self, Unknown> {
+        Self::of(m, number, |axis| {
+            let z = axis.scale(1.0 / axis.norm());
+            frame_about(z, z.any_across())
+        })
+    }
+}
+
+impl OfTree<Expr> {
+    /// The same with its numbers exactly as they stand.
+    ///
+    /// # Errors
+    /// If masses or values are missing, or an axis has no direction.
+    pub fn exact(m: &Mechanism) -> Result<Self, Unknown> {
+        let known = |e: Expr| number(e).map(|_| e);
+        Self::of(m, known, |axis| {
+            let z = axis.scale(Expr::int(1) / axis.norm());
+            let near = z.map(|e| number(e).unwrap_or(0.0));
+            // Towards the axis that is farthest from it.
+            let least = Axis::ALL.into_iter().min_by(|a, b| {
+                let size = |x: &Axis| near[x.index()].abs();
+                size(a).total_cmp(&size(b))
+            });
+            let e = Vector::unit(least.unwrap_or(Axis::X));
+            let across = e - z.scale(e.dot(z));
+            frame_about(z, across.scale(Expr::int(1) / across.norm()))
+        })
+    }
+}
+
+impl<T: Scalar> OfTree<T> {
+    /// With what numbers are, and a rotation whose z is along an axis that has a direction.
+    fn of(
+        m: &Mechanism,
+        value: impl Fn(Expr) -> Option<T>,
+        onto_z: impl Fn(Vector<T>) -> Rotation<T>,
+    ) -> Result<Self, Unknown> {
         if m.bodies.iter().all(|b| b.mass.is_none() && !b.is_unweighed) {
             return Err(Unknown::NoMasses);
         }
         let joints = m.variables();
         let mut place = vec![None; m.joints.len()];
         joints.iter().enumerate().for_each(|(k, &j)| place[j] = Some(k));
-        let mut links: Vec<Link<f64>> = vec![];
+        let mut links: Vec<Link<T>> = vec![];
         let mut drives = vec![Drive::nothing(); joints.len()];
         // The link of each body, and its frame there; those of the root stand in the base.
-        let mut at: Vec<Option<(Option<usize>, Transform<f64>)>> = vec![None; m.bodies.len()];
+        let mut at: Vec<Option<(Option<usize>, Transform<T>)>> = vec![None; m.bodies.len()];
         at[m.root] = Some((None, Transform::identity()));
         // The joint to a body stands before those behind it.
         for (j, joint) in m.joints.iter().enumerate() {
             let Some((parent, frame)) = at[joint.parent] else { continue };
             let unknown = || Unknown::NoValue(joint.name.clone());
-            let frame = frame * numbers(&joint.origin).ok_or_else(unknown)?;
+            let frame = frame * values(&joint.origin, &value).ok_or_else(unknown)?;
             let Some(kind) = joint.kind else {
                 at[joint.child] = Some((parent, frame));
                 continue;
             };
-            let axis = Vector([0, 1, 2].map(|i| number(joint.axis[i]).unwrap_or(f64::NAN)));
-            let turn = onto_z(axis).ok_or_else(|| Unknown::NoAxis(joint.name.clone()))?;
-            let (leader, factor, offset) = match &joint.follows {
-                None => (place[j], 1.0, 0.0),
-                Some(f) => (place[f.joint], f.factor.to_f64(), number(f.offset).ok_or_else(unknown)?),
+            let no_axis = || Unknown::NoAxis(joint.name.clone());
+            let near = Vector(joint.axis.0.map(|e| number(e).unwrap_or(f64::NAN))).norm();
+            if !(near.is_finite() && near > 0.0) {
+                return Err(no_axis());
+            }
+            let [x, y, z] = joint.axis.0.map(&value);
+            let turn =
+                onto_z(Vector([x.ok_or_else(no_axis)?, y.ok_or_else(no_axis)?, z.ok_or_else(no_axis)?]));
+            let (leader, ratio, offset) = match &joint.follows {
+                None => (place[j], Rational::ONE, T::zero()),
+                Some(f) => (place[f.joint], f.factor.clone(), value(f.offset).ok_or_else(unknown)?),
             };
             let leader = leader.ok_or_else(unknown)?;
-            let value = Affine { offset, quarters: 0, terms: vec![(leader, factor)] };
-            let part = |e: Option<Expr>| e.map_or(Some(0.0), number).ok_or_else(unknown);
+            let times = |r: Rational| value(Expr::from(r)).ok_or_else(unknown);
+            let affine = Affine { offset, quarters: 0, terms: vec![(leader, times(ratio.clone())?)] };
+            let (square, size) = (times(&ratio * &ratio)?, times(ratio.abs())?);
+            let part = |e: Option<Expr>| e.map_or(Some(T::zero()), &value).ok_or_else(unknown);
             let drive = &mut drives[leader];
-            drive.rotor += factor * factor * part(joint.drive.rotor)?;
-            drive.viscous += factor * factor * part(joint.drive.viscous)?;
-            drive.coulomb += factor.abs() * part(joint.drive.coulomb)?;
+            drive.rotor = drive.rotor + square * part(joint.drive.rotor)?;
+            drive.viscous = drive.viscous + square * part(joint.drive.viscous)?;
+            drive.coulomb = drive.coulomb + size * part(joint.drive.coulomb)?;
             let turned = Transform::from_rotation_translation(turn, Vector::zero());
             links.push(Link {
                 parent,
                 before: frame * turned,
                 kind,
-                value,
+                value: affine,
                 body: Body::nothing(),
-                row: links.len(),
+                row: j,
             });
             at[joint.child] = Some((Some(links.len() - 1), turned.inverse()));
         }
@@ -100,20 +144,17 @@ impl OfTree {
                 return Err(Unknown::Unweighed(body.name.clone()));
             }
             if let Some(mass) = &body.mass {
-                let own = mass.body().parameters().map(|e| number(e).unwrap_or(f64::NAN));
-                if own.iter().any(|x| x.is_nan()) {
-                    return Err(Unknown::NoValue(body.name.clone()));
-                }
+                let own: Option<Vec<T>> = mass.body().parameters().into_iter().map(&value).collect();
+                let own = own.and_then(|all| <[T; 10]>::try_from(all).ok());
+                let own = own.ok_or_else(|| Unknown::NoValue(body.name.clone()))?;
                 links[*link].body = links[*link].body + Body::of(own).seen_from(frame);
             }
         }
         let (n, d) = GRAVITY;
-        let down = [0.0, 0.0, -(n as f64) / d as f64];
-        let gravity = m.gravity.map_or(Some(Vector(down)), |g| {
-            let [x, y, z] = g.map(number);
-            Some(Vector([x?, y?, z?]))
-        });
-        let gravity = gravity.ok_or_else(|| Unknown::NoValue(m.name.clone()))?;
+        let o = Expr::int(0);
+        let gravity = m.gravity.unwrap_or([o, o, Expr::from(Rational::new(-n, d))]).map(&value);
+        let [Some(x), Some(y), Some(z)] = gravity else { return Err(Unknown::NoValue(m.name.clone())) };
+        let gravity = Vector([x, y, z]);
         Ok(OfTree { dynamics: Dynamics { links, tool: Transform::identity(), gravity, drives }, joints })
     }
 }
@@ -122,25 +163,19 @@ fn number(e: Expr) -> Option<f64> {
     e.eval(|_| None).ok().filter(|x| x.is_finite())
 }
 
-fn numbers(x: &Transform<Expr>) -> Option<Transform<f64>> {
+fn values<T: Scalar>(x: &Transform<Expr>, value: impl Fn(Expr) -> Option<T>) -> Option<Transform<T>> {
     let mut all = true;
     let found = x.map(|e| {
-        number(e).unwrap_or_else(|| {
+        value(e).unwrap_or_else(|| {
             all = false;
-            0.0
+            T::zero()
         })
     });
     all.then_some(found)
 }
 
-/// A rotation whose z is along an axis.
-fn onto_z(axis: Vector<f64>) -> Option<Rotation<f64>> {
-    let length = axis.dot(axis).sqrt();
-    if !(length.is_finite() && length > 0.0) {
-        return None;
-    }
-    let z = axis.scale(1.0 / length);
-    let x = z.any_across();
+/// The rotation with these columns for z and x.
+fn frame_about<T: Scalar>(z: Vector<T>, x: Vector<T>) -> Rotation<T> {
     let y = z.cross(x);
-    Some(Rotation::from_rows([0, 1, 2].map(|i| [x[i], y[i], z[i]])))
+    Rotation::from_rows([0, 1, 2].map(|i| [x[i], y[i], z[i]]))
 }

@@ -3,10 +3,12 @@
 use crate::common::{Random, numbers};
 use denavit::description::{Convention, Decimals, Mechanism, read_urdf};
 use denavit::dynamics::{
-    Acting, Dynamics, Method, OfTree, Torques, Unknown, articulated_bodies, coriolis_matrix, direct_dynamics,
+    Acting, DynamicFunction as F, DynamicPrograms, Dynamics, Ground, Masses, Method, OfTree, Torques,
+    Unknown, acceleration_derivatives, articulated_bodies, coriolis_matrix, direct_dynamics, drive_torques,
     gravity_torques, inertia_matrix, inverse_dynamics, kinetic_energy, momentum, potential_energy, regressor,
     simulate, torque_derivatives,
 };
+use denavit_symbolic::Expr;
 use serde_json::Value;
 
 fn mechanism(name: &str) -> Mechanism {
@@ -72,6 +74,22 @@ fn trees_agree_with_pinocchio() {
             bodies += 1;
             close(&format!("{name}, by bodies"), &by_bodies.unwrap(), &of("direct"), 1e-7);
         }
+        // Programs of the whole tree.
+        let mut exact = OfTree::<Expr>::exact(&m).unwrap_or_else(|e| panic!("{name}: {e}"));
+        exact.dynamics.drives.iter_mut().for_each(|d| *d = denavit::dynamics::Drive::nothing());
+        let all = DynamicPrograms::of_tree(&exact, Masses::Numbers);
+        assert!(!matches!(all.model.ground, Ground::Failed), "{name}");
+        let run = |f: F, x: &[f64]| all.program(f).unwrap().program.compile(&[]).scalar().eval(x).to_vec();
+        let state = [&q[..], &qd, &qdd].concat();
+        close(&format!("{name}, program of torques"), &run(F::Torque, &state), &of("tau"), 1e-10);
+        close(&format!("{name}, program of A"), &run(F::Inertia, &q), &wanted, 1e-10);
+        let driven = [&q[..], &qd, &pulled].concat();
+        close(
+            &format!("{name}, program of accelerations"),
+            &run(F::Acceleration, &driven),
+            &of("direct"),
+            1e-7,
+        );
         let energy = |key: &str| tree["sample"][key].as_f64().unwrap();
         close(&format!("{name}, T"), &[kinetic_energy(arm, &q, &qd)], &[energy("T")], 1e-10);
         close(&format!("{name}, V"), &[potential_energy(arm, &q)], &[energy("V")], 1e-10);
@@ -159,6 +177,76 @@ fn derivatives_of_trees_are_slopes() {
             column(k, &|h| torque(&at(&q, k, h), &qd, &qdd), &found.by_q, "q");
             column(k, &|h| torque(&q, &at(&qd, k, h), &qdd), &found.by_qd, "qd");
             column(k, &|h| torque(&q, &qd, &at(&qdd, k, h)), &found.by_third, "qdd");
+        }
+    }
+}
+
+/// Every function of a whole tree as a program is what the algorithms give in numbers, with the links' numbers in it or as
+/// parameters of links or base parameters; joints that follow others and drives among them.
+#[test]
+fn programs_of_trees_compute_what_numbers_do() {
+    for (name, ground) in [
+        ("double_pendulum", Some(Ground::Proved)),
+        ("finger_edu", None),
+        ("ur5_gripper", None),
+        ("bolt", Some(Ground::Modulo(3))),
+        ("solo12", Some(Ground::Modulo(3))),
+    ] {
+        let m = mechanism(name);
+        let arm = OfTree::new(&m).unwrap().dynamics;
+        let exact = OfTree::<Expr>::exact(&m).unwrap();
+        let n = arm.joints();
+        let mut random = Random(9);
+        let mut any = || -> Vec<f64> { (0..n).map(|_| 2.0 * random.unit() - 1.0).collect() };
+        let (q, qd, third) = (any(), any(), any());
+        let torques = drive_torques(&arm, &q, &qd, &third, None);
+        let slopes = torque_derivatives(&arm, &q, &qd, &third);
+        let accelerations = direct_dynamics(&arm, &q, &qd, &third, None).unwrap();
+        let driven = acceleration_derivatives(&arm, &q, &qd, &third).unwrap();
+        let beside = |first: Option<&Vec<f64>>, of: &denavit::dynamics::Slopes| -> Vec<f64> {
+            let row = |j: usize| {
+                let own: Vec<f64> = first.iter().map(|all| all[j]).collect();
+                [&own[..], &of.by_q[j], &of.by_qd[j], &of.by_third[j]].concat()
+            };
+            (0..n).flat_map(row).collect()
+        };
+        for masses in [Masses::Numbers, Masses::Links, Masses::Base] {
+            let all = DynamicPrograms::of_tree(&exact, masses);
+            let found = all.model.ground;
+            assert!(found != Ground::Failed, "{name}");
+            if let (Some(ground), Masses::Numbers) = (ground, masses) {
+                assert_eq!(found, ground, "{name}");
+            }
+            let (base, formulas) = (&all.model.base, &all.model.formulas);
+            let value = |s: &denavit_symbolic::Symbol| {
+                let grouped = base.parameters.iter().find(|p| p.is_grouped && p.symbol == *s);
+                grouped.map_or_else(|| formulas.value(*s), |p| base.value(formulas, p)).expect("a value")
+            };
+            for f in F::ALL {
+                let Ok(program) = all.program(f) else {
+                    assert_eq!((f, masses), (F::Energy, Masses::Base), "{name}");
+                    continue;
+                };
+                assert!(all.ground(f, &program) != Ground::Failed, "{name}, {f:?}");
+                let values: Vec<f64> = program.program.parameters().iter().map(value).collect();
+                let x = [&q[..], &qd, &third].concat();
+                let x = &x[..program.program.variables().len()];
+                let found = program.program.compile(&values).scalar().eval(x).to_vec();
+                let wanted = match f {
+                    F::Torque => torques.clone(),
+                    F::Inertia => inertia_matrix(&arm, &q).concat(),
+                    F::Bias => drive_torques(&arm, &q, &qd, &vec![0.0; n], None),
+                    F::Gravity => gravity_torques(&arm, &q),
+                    F::Acceleration => accelerations.clone(),
+                    F::Energy => vec![kinetic_energy(&arm, &q, &qd), potential_energy(&arm, &q)],
+                    F::TorqueDerivatives => beside(None, &slopes),
+                    F::AccelerationDerivatives => beside(None, &driven),
+                    F::TorqueWithDerivatives => beside(Some(&torques), &slopes),
+                    F::AccelerationWithDerivatives => beside(Some(&accelerations), &driven),
+                };
+                let tolerance = if f.is_driven() { 1e-8 } else { 1e-11 };
+                close(&format!("{name}, {masses:?}, {f:?}"), &found, &wanted, tolerance);
+            }
         }
     }
 }

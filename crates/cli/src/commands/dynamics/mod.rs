@@ -3,7 +3,7 @@
 mod report;
 mod simulation;
 mod stream;
-mod tree;
+pub mod tree;
 
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;

@@ -1,13 +1,50 @@
 //! `dynamics --whole`: all joints of a tree.
 
 use super::{Arm, Given, gravity, report};
-use crate::arguments::DynamicsArguments;
+use crate::arguments::{DynamicsArguments, Format};
+use crate::commands::document;
 use crate::commands::fk::tree::{bodies, configuration, joints, kind};
 use crate::failure::Failure;
 use crate::load;
-use denavit::description::JointKind;
-use denavit::dynamics::{OfTree, Unknown};
+use denavit::description::{JointKind, Mechanism};
+use denavit::dynamics::{DynamicModel, Formulas, Ground, OfTree, Unknown};
+use denavit_report::explain::{tree_dynamics_document, tree_dynamics_vocabulary};
+use denavit_symbolic::Expr;
+use denavit_symbolic::print::{Style, print};
+use denavit_wire::dynamics::Model;
 use std::io::Write;
+
+/// Why there is no dynamic model of a tree.
+pub fn unknown(file: &str, why: &Unknown) -> Failure {
+    let hint = match why {
+        Unknown::NoMasses => {
+            "\n  = hint: a URDF or an MJCF does; a tree of rows has them as mass, com and inertia"
+        }
+        Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) => "",
+    };
+    Failure::Input(format!("error: {file}: {why}{hint}"))
+}
+
+/// Formulas of a tree.
+fn symbolic(m: &Mechanism, arguments: &DynamicsArguments) -> Result<(), Failure> {
+    let tree = OfTree::exact(m).map_err(|why| unknown(&arguments.robot.robot, &why))?;
+    let model = DynamicModel::of_tree(Formulas::of_tree(&tree).with_names());
+    let names = tree_dynamics_vocabulary(m, &model);
+    let tongue = arguments.language.tongue();
+    let text = if arguments.json || arguments.format == Format::Json {
+        let text = |e: Expr| print(e, &names, Style::Ascii);
+        format!("{}\n", denavit_wire::text(&Model::of(&m.name, &model, text)))
+    } else {
+        let title = tongue.words().dynamics_title(&m.name);
+        let blocks = tree_dynamics_document(m, &model, tongue);
+        document::document_in(tongue, &title, &names, &blocks, arguments.format)
+    };
+    write!(anstream::stdout(), "{text}")?;
+    match model.ground {
+        Ground::Failed => Err(Failure::GaveUp("the torques are not Lagrange's".into())),
+        Ground::Proved | Ground::Modulo(_) | Ground::Numbers(..) => Ok(()),
+    }
+}
 
 /// Answers what is asked about a state of a tree.
 ///
@@ -21,15 +58,10 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if let Some(text) = &arguments.gravity {
         m.gravity = Some(gravity(text)?);
     }
-    let found = OfTree::new(&m).map_err(|why| {
-        let hint = match why {
-            Unknown::NoMasses => {
-                "\n  = hint: a URDF or an MJCF does; a tree of rows has them as mass, com and inertia"
-            }
-            Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) => "",
-        };
-        Failure::Input(format!("error: {file}: {why}{hint}"))
-    })?;
+    if arguments.symbolic {
+        return symbolic(&m, arguments);
+    }
+    let found = OfTree::new(&m).map_err(|why| unknown(file, &why))?;
     let moving: Vec<(String, JointKind)> =
         joints(&m).into_iter().map(|j| (j.name.clone(), kind(j))).collect();
     let q = configuration(&m, arguments.q.as_deref())?;

@@ -156,6 +156,13 @@ impl Dynamics for English {
         format!("Link {link}")
     }
 
+    fn link_of_tree(&self, link: usize, joint: &str, parent: Option<usize>) -> String {
+        match parent {
+            Some(parent) => format!("Link {link}: behind joint {joint}, on link {parent}."),
+            None => format!("Link {link}: behind joint {joint}, on the root."),
+        }
+    }
+
     fn motion_ground(&self, ground: Ground) -> String {
         match ground {
             Ground::Proved => {

@@ -169,6 +169,13 @@ impl Dynamics for French {
         format!("Corps {link}")
     }
 
+    fn link_of_tree(&self, link: usize, joint: &str, parent: Option<usize>) -> String {
+        match parent {
+            Some(parent) => say!("Corps {link} : après l'articulation {joint}, sur le corps {parent}."),
+            None => say!("Corps {link} : après l'articulation {joint}, sur la racine."),
+        }
+    }
+
     fn motion_ground(&self, ground: Ground) -> String {
         match ground {
             Ground::Proved => {

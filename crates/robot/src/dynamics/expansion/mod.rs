@@ -74,6 +74,10 @@ impl Arm {
         // The angle of the group so far, with its slopes.
         let (mut group, mut group_slopes) = (Sum::default(), vec![Poly::zero(); n]);
         for (k, link) in formulas.dynamics.links.iter().enumerate() {
+            // Trees have no such form here.
+            if link.parent != k.checked_sub(1) {
+                return None;
+            }
             if k == 0 || link.before.rotation != Rotation::identity() {
                 (group, group_slopes) = (Sum::default(), vec![Poly::zero(); n]);
             }

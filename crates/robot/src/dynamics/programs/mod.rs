@@ -21,8 +21,9 @@ use super::lagrange::{EXPANDED, Ground, program};
 use super::model::{Formulas, NoNumbers};
 use super::newton_euler::inverse_dynamics;
 use super::short::shortest_inertia;
+use super::tree::OfTree;
 use crate::description::Description;
-use crate::geometry::Vector;
+use crate::geometry::{Body, Vector};
 use denavit_program::{Composer, Program, Value};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use held::{Held, same};
@@ -35,6 +36,8 @@ use std::fmt;
 const ORDERS: u64 = 8;
 /// Orders at random in which vertices are eliminated.
 const ELIMINATIONS: u64 = 24;
+/// Operations of a program up to which all these are tried.
+const USUAL: u64 = 1_000;
 
 /// A dynamic function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -93,7 +96,8 @@ pub struct DynamicPrograms {
     /// On what it rests that what holds the wrench is Jᵀ w: proved where there is none.
     pub wrench_ground: Ground,
     masses: Masses,
-    description: Description,
+    /// Nothing of a whole tree.
+    description: Option<Description>,
     /// What stands in the place of symbols of the model.
     values: FxHashMap<Symbol, Expr>,
     /// With the wrench.
@@ -250,6 +254,18 @@ impl DynamicPrograms {
         };
         let formulas = if loads.payload { formulas.carrying() } else { formulas };
         let model = DynamicModel::of(d, formulas);
+        Ok(Self::of(model, Some(d), masses, loads))
+    }
+
+    /// The functions of a whole tree: none has a tool.
+    pub fn of_tree(tree: &OfTree<Expr>, masses: Masses) -> Self {
+        let formulas = Formulas::of_tree(tree);
+        let formulas = if masses == Masses::Numbers { formulas } else { formulas.with_names() };
+        Self::of(DynamicModel::of_tree(formulas), None, masses, Loads::default())
+    }
+
+    /// Those of a model, with a wrench if there is a description of the arm.
+    fn of(model: DynamicModel, d: Option<&Description>, masses: Masses, loads: Loads) -> Self {
         let mut values: FxHashMap<Symbol, Expr> = FxHashMap::default();
         if masses != Masses::Base {
             for p in &model.base.parameters {
@@ -262,24 +278,27 @@ impl DynamicPrograms {
         let drives = driving(formulas);
         let symbols = [formulas.q.clone(), formulas.qd.clone(), formulas.qdd.clone(), drives];
         let plain = with_values(&model.torques, &model.formulas, &values);
-        let names = if loads.wrench { wrench::names(formulas, &symbols) } else { vec![] };
-        let (torque, wrench_ground) = match loads.wrench {
-            true => wrench::added(d, formulas, &plain, &names),
-            false => (plain, Ground::Proved),
+        let mut names = vec![];
+        let (torque, wrench_ground) = match d.filter(|_| loads.wrench) {
+            Some(d) => {
+                names = wrench::names(formulas, &symbols);
+                wrench::added(d, formulas, &plain, &names)
+            }
+            None => (plain, Ground::Proved),
         };
-        Ok(DynamicPrograms {
+        DynamicPrograms {
             model,
             symbols,
             wrench: names,
             wrench_ground,
             masses,
-            description: d.clone(),
+            description: d.cloned(),
             values,
             torque,
             matrices: OnceCell::new(),
             bias: OnceCell::new(),
             by_state: OnceCell::new(),
-        })
+        }
     }
 
     /// The parameters of the programs, in order: names of the table, then those of masses.
@@ -384,7 +403,7 @@ impl DynamicPrograms {
         let is_zero = |s: Symbol| !kept.contains(&s) && self.is_state(s);
         let torques = all.copy(&self.torque, |s| is_zero(s).then_some(zero));
         let long = DynamicProgram::plain(all.finish(&named("t", torques)));
-        self.shortened(vec![long], ORDERS, Held::Expanded)
+        self.shortened(vec![long], self.orders(), Held::Expanded)
     }
 
     /// What a program reads beside parameters.
@@ -429,11 +448,34 @@ impl DynamicPrograms {
 
     /// A by composite bodies from base parameters; nothing where a link has a mass for each direction.
     fn composite(&self) -> Option<Program> {
-        let found = shortest_inertia(&self.description, &self.model.formulas, &self.model.base)?;
+        let found = match &self.description {
+            Some(d) => shortest_inertia(d, &self.model.formulas, &self.model.base)?,
+            None => self.by_bodies()?,
+        };
         let found = with_values(&found, &self.model.formulas, &self.values);
         let mut all = Composer::new(&self.symbols[0], self.parameters());
         let entries = all.copy(&found, |_| None);
         Some(all.finish(&named("a", entries)))
+    }
+
+    /// The same by the plain algorithm.
+    fn by_bodies(&self) -> Option<Program> {
+        let formulas = &self.model.formulas;
+        let mut arm = formulas.dynamics.clone();
+        for (link, own) in arm.links.iter_mut().zip(&self.model.base.links) {
+            let [mass, y, z] = own.mass.0;
+            if mass != y || mass != z {
+                return None;
+            }
+            link.body = Body { inertia: own.inertia, first_moment: own.first_moment, mass };
+        }
+        let [q, ..] = formulas.state();
+        Some(program(&formulas.q, &inertia_matrix(&arm, &q).concat()).shortened(0))
+    }
+
+    /// Orders in which programs are shortened: of whole trees the first alone.
+    fn orders(&self) -> u64 {
+        if self.description.is_some() { ORDERS } else { 0 }
     }
 
     /// ∂τ/∂q, ∂τ/∂q̇ and A, behind the torques or alone: all of them derivatives of the torques, or with the matrix that makes it the
@@ -452,7 +494,7 @@ impl DynamicPrograms {
             let entries = rows.flat_map(|(a, b)| [a, b].concat()).collect();
             DynamicProgram { program: whole(all.finish(&named("d", entries))), ..matrix.clone() }
         };
-        let plain = self.torque.jacobian_in_orders(&[&q[..], qd, qdd].concat(), ELIMINATIONS);
+        let plain = self.jacobian_by(&[&q[..], qd, qdd].concat());
         let all = self.inertias().iter().map(with).chain([DynamicProgram::plain(whole(plain))]);
         let held = if n <= EXPANDED { Held::Expanded } else { Held::AtStates };
         self.shortened(all.collect(), 0, held)
@@ -461,7 +503,13 @@ impl DynamicPrograms {
     /// ∂τ/∂q and ∂τ/∂q̇ side by side.
     fn by_state(&self) -> &Program {
         let [q, qd, ..] = &self.symbols;
-        self.by_state.get_or_init(|| self.torque.jacobian_in_orders(&[&q[..], qd].concat(), ELIMINATIONS))
+        self.by_state.get_or_init(|| self.jacobian_by(&[&q[..], qd].concat()))
+    }
+
+    /// The derivatives of the torques, in fewer orders where they are long.
+    fn jacobian_by(&self, variables: &[Symbol]) -> Program {
+        let orders = ELIMINATIONS * USUAL / (self.torque.ops().len() as u64).max(USUAL);
+        self.torque.jacobian_in_orders(variables, orders)
     }
 
     /// The torques of accelerations alone, at rest and without gravity: A q̈.
