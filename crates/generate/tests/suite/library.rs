@@ -1,10 +1,11 @@
 //! What the tests of generated functions hold.
 
-use denavit::description::read_toml;
+use denavit::description::{Decimals, read_toml, read_urdf};
+use denavit::dynamics::DynamicFunction;
 use denavit::inverse::{self, Goal};
 use denavit::{Description, catalogue};
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, PackageOptions, Wanted, generate};
+use denavit_generate::{Generated, PackageOptions, Unable, Wanted, generate, generate_tree};
 
 fn robot(name: &str) -> Description {
     catalogue::robot(name).expect("the catalogue has it")
@@ -102,4 +103,39 @@ fn pose_and_jacobian_come_in_one_pass() {
     assert!(one_pass.cost() < pose.cost() + jacobian.cost());
     assert_eq!(wanted(&[Wanted::Jacobian]).len(), 1);
     assert_eq!(wanted(&[Wanted::JacobianAndPose]).len(), 1);
+}
+
+/// A whole tree: functions of all its joints, by name, in every language; what only a chain has is refused.
+#[test]
+fn whole_trees_are_generated() {
+    let m = read_urdf(include_str!("../../../robot/tests/urdf/solo12.urdf"), Decimals::AsWritten).unwrap().0;
+    let functions =
+        [DynamicFunction::Torque, DynamicFunction::Inertia, DynamicFunction::TorqueWithDerivatives];
+    for language in Language::ALL {
+        let options = PackageOptions {
+            language,
+            functions: functions.map(Wanted::Dynamic).to_vec(),
+            inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
+            precision: Precision::Double,
+            name: Some("solo".into()),
+            masses: None,
+            loads: denavit::dynamics::Loads::default(),
+            fixed: false,
+        };
+        let found = generate_tree(&m, &options).expect("it has masses");
+        assert_eq!(found.functions.len(), 3);
+        for f in &found.functions {
+            assert!(
+                f.claim.contains("equal to Lagrange's equations") && f.divides_by.is_empty(),
+                "{}",
+                f.claim
+            );
+        }
+        let all: String = found.files.iter().map(|f| f.text.as_str()).collect();
+        for word in ["A whole tree of", "FL_KFE on 2", "(HR_KFE)"] {
+            assert!(all.contains(word), "{word}");
+        }
+        let chains = PackageOptions { functions: vec![Wanted::Pose], ..options };
+        assert_eq!(generate_tree(&m, &chains).map(|_| ()), Err(Unable::OfChains(Wanted::Pose)));
+    }
 }
