@@ -61,10 +61,11 @@ fn is_of_entries_elsewhere(text: &str, assertion: &Assertion, subject: &Subject)
 }
 
 /// Whether what a joint, or a sum of joints, is said to be stands right behind words that fix a joint: `When θ_2 = 0 only the sum
-/// is determined:`; a sum in the same sentence, `with θ_5 = 0 we have θ_4 + θ_6 = …`; or anything where joints hang together.
+/// is determined:`; a sum in the same sentence, `with θ_5 = 0 we have θ_4 + θ_6 = …`; or anything behind words of a linkage that makes joints follow others.
 fn is_under_supposition(text: &str, assertion: &Assertion, subject: &Subject) -> bool {
     let is_of_joints = matches!(assertion.spoken, Some(Spoken::Joint { .. }));
     if (is_of_joints || assertion.about == About::Equation)
+        && speaks_of_linkage(before(text, assertion.span.start, TOGETHER))
         && !told_together(text, assertion.span.start, subject).is_empty()
     {
         return true;
@@ -81,21 +82,61 @@ fn is_under_supposition(text: &str, assertion: &Assertion, subject: &Subject) ->
     !told_values(sentence, subject).is_empty()
 }
 
+/// Whether words speak of what holds joints together.
+fn speaks_of_linkage(words: &str) -> bool {
+    const WORDS: [&str; 14] = [
+        "linkage",
+        "parallelogram",
+        "coupled",
+        "coupling",
+        "constraint",
+        "keeps",
+        "level",
+        "gekoppelt",
+        "waagerecht",
+        "acoplad",
+        "couplé",
+        "mantiene",
+        "parallélogramme",
+        "parallelogramm",
+    ];
+    let lower = words.to_lowercase();
+    WORDS.iter().any(|w| lower.contains(w))
+}
+
 /// The joints that words before a place make functions of others, as a linkage does: `q4 = -(q2 + q3)`.
 pub(super) fn told_together(text: &str, at: usize, subject: &Subject) -> Vec<(Symbol, Expr)> {
     let window = before(text, at, TOGETHER);
+    // Names and signs alone: most formulas are none.
+    let is_plain = |value: &str| {
+        let is_sign = |c: char| " +-−()_{}\\$".contains(c);
+        let is_other = |c: char| !is_sign(c) && !c.is_alphanumeric();
+        let has_function = || ["sin", "cos", "tan", "sqrt"].iter().any(|f| value.contains(f));
+        value.len() <= LONGEST
+            && !value.contains(is_other)
+            && value.contains(|c: char| c.is_ascii_digit())
+            && value.contains(char::is_alphabetic)
+            && !has_function()
+    };
+    let candidates: Vec<(&str, &str)> = window
+        .rmatch_indices('=')
+        .take(MOST_EQUATIONS)
+        .filter_map(|(at, _)| {
+            let left = window[..at].trim_end_matches([' ', '$', '&', '*']);
+            let name = left.rsplit([' ', '$', '(', ',', '\n', '*', ':']).next().unwrap_or_default();
+            let value = &window[at + 1..];
+            let end = value.find(['\n', '$', ';', ',', ':', '=']).unwrap_or(value.len());
+            let value = value[..end].split(". ").next().unwrap_or_default().trim_end_matches(['.', ' ']);
+            is_plain(value).then_some((name, value))
+        })
+        .collect();
+    if candidates.is_empty() {
+        return vec![];
+    }
     let (names, joints) = (&subject.vocabulary(), subject.joints());
     let mut told: Vec<(Symbol, Expr)> = vec![];
-    for (at, _) in window.rmatch_indices('=').take(MOST_EQUATIONS) {
-        let left = window[..at].trim_end_matches([' ', '$', '&', '*']);
-        let name = left.rsplit([' ', '$', '(', ',', '\n', '*', ':']).next().unwrap_or_default();
+    for (name, value) in candidates {
         let Some(joint) = names.lookup(&plain_name(name)).filter(|e| joints.contains(e)) else { continue };
-        let value = &window[at + 1..];
-        let end = value.find(['\n', '$', ';', ',', ':', '=']).unwrap_or(value.len());
-        let value = value[..end].split(". ").next().unwrap_or_default().trim_end_matches(['.', ' ']);
-        if value.is_empty() || value.len() > LONGEST {
-            continue;
-        }
         let Ok(syntax) = read(value, &(0..value.len()), names) else { continue };
         let value = syntax.value();
         let of: Vec<Expr> = value.symbols().iter().map(|s| (*s).into()).collect();

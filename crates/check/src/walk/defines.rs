@@ -184,21 +184,6 @@ impl Walk<'_> {
         Some((name, value))
     }
 
-    /// Keeps a name that a statement about its square, sine or cosine defines; whether it does.
-    pub(super) fn defines_by_square(
-        &mut self,
-        statement: &Statement,
-        left: &Range<usize>,
-        span: &Range<usize>,
-        syntax: &Syntax,
-    ) -> bool {
-        let inverse = self.inverse_value(span, syntax);
-        let told = (self.implied(left, syntax.value()), self.implied(left, inverse));
-        let (Some((name, value)), Some((_, inverse))) = told else { return false };
-        self.defined_here(statement, name, [value, inverse], span, syntax);
-        true
-    }
-
     /// A name with a letter as its argument, `f_{11}(p)`: as a whole it is a name.
     pub(super) fn name_with_argument(&self, span: &Range<usize>) -> Option<String> {
         let plain = plain_name(&self.source(span).replace("\\left", "").replace("\\right", ""));

@@ -94,7 +94,7 @@ fn distances(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
         });
         let is_root = matches!(d.printed.kind, SyntaxKind::Root(_));
         let square = match d.value.node() {
-            Node::Sqrt(inner) => inner,
+            Node::Sqrt(inner) if is_root => inner,
             _ if is_root => d.value.powi(2),
             _ => d.value,
         };

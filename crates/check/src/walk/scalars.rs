@@ -177,12 +177,6 @@ impl Walk<'_> {
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {
-                // `ρ² = l_1² + …`
-                [Scalar::Lone(_), Scalar::Formula(span, syntax)]
-                    if self.defines_by_square(statement, &spans[0], span, syntax) =>
-                {
-                    return true;
-                }
                 [first, Scalar::Formula(span, syntax), ..]
                     if self.defines(&spans[0], first, syntax)
                         || self.is_told_of_itself(&spans[0], span)
@@ -206,11 +200,15 @@ impl Walk<'_> {
                     self.defined_here(statement, name, [syntax.value(), inverse], span, syntax);
                     true
                 }
-                [Scalar::Broken(..), Scalar::Formula(span, syntax)] => {
-                    if self.defines_by_square(statement, &spans[0], span, syntax) {
-                        return true;
+                [Scalar::Broken(left, _), Scalar::Formula(span, syntax)] => {
+                    let inverse = self.inverse_value(span, syntax);
+                    match (self.implied(left, syntax.value()), self.implied(left, inverse)) {
+                        (Some((name, value)), Some((_, inverse))) => {
+                            self.defined_here(statement, name, [value, inverse], span, syntax);
+                            return true;
+                        }
+                        _ => false,
                     }
-                    false
                 }
                 _ => false,
             };
@@ -351,7 +349,7 @@ impl Walk<'_> {
     }
 
     /// The value of a formula, the entries of the pose as symbols.
-    pub(super) fn inverse_value(&self, span: &Range<usize>, syntax: &Syntax) -> Expr {
+    fn inverse_value(&self, span: &Range<usize>, syntax: &Syntax) -> Expr {
         self.lexis.inverse_formula(self.text, span).map_or(syntax.value(), |s| s.value())
     }
 

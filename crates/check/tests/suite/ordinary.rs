@@ -412,19 +412,3 @@ fn results_behind_the_sentence_of_their_configuration() {
     expect(&text("315.6"), None, &[("x", EQUAL), ("y", EQUAL)]);
     expect(&text("351.6"), None, &[("x", EQUAL), ("y", WRONG)]);
 }
-
-/// A distance that is told by its square has its numbers.
-#[test]
-fn numbers_of_what_is_told_by_its_square() {
-    let text = |left: &str, second: &str| {
-        format!(
-            "{PLANAR}With L1 = 220 mm, L2 = 160 mm the distance of the tip satisfies\n\n{left}² = L1² + L2² + 2 L1 L2 cos θ2\n\n\
-             P1: θ1 = 0°, θ2 = 90°: {left} = 272.0 mm\n\nP2: θ1 = 45°, θ2 = 45°: {left} = {second} mm\n"
-        )
-    };
-    for left in ["r", "ρ"] {
-        let name = format!("{left}²");
-        expect(&text(left, "351.8"), None, &[(&name, EQUAL), (left, &[Standing::Equal, Standing::Equal])]);
-        expect(&text(left, "358.1"), None, &[(&name, EQUAL), (left, &[Standing::Equal, Standing::Wrong])]);
-    }
-}
