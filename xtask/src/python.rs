@@ -10,7 +10,7 @@ use std::process::Command;
 const PACKAGE: &str = "crates/python/python/denavit";
 const TESTS: &str = "crates/python/tests";
 /// What tests use.
-const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "mypy"];
+const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "mypy", "jax"];
 
 /// Builds the module beside the program, puts the package together and runs its tests and those of its types.
 ///

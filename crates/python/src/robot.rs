@@ -97,6 +97,8 @@ fn dynamic(name: &str) -> Option<(DynamicFunction, usize)> {
         "gravity" => (DynamicFunction::Gravity, 1),
         "acceleration" => (DynamicFunction::Acceleration, 3),
         "energy" => (DynamicFunction::Energy, 2),
+        "torque with derivatives" => (DynamicFunction::TorqueWithDerivatives, 3),
+        "acceleration with derivatives" => (DynamicFunction::AccelerationWithDerivatives, 3),
         _ => return None,
     })
 }
@@ -343,6 +345,9 @@ impl Core {
         let tail: &[usize] = match wanted {
             DynamicFunction::Inertia => &[n, n],
             DynamicFunction::Energy => &[2],
+            DynamicFunction::TorqueWithDerivatives | DynamicFunction::AccelerationWithDerivatives => {
+                &[n, 3 * n + 1]
+            }
             _ => &[n],
         };
         let call =

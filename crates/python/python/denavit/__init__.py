@@ -31,8 +31,10 @@ from ._errors import (
     UsageError,
 )
 from ._robot import Joint, Robot, catalogue
+from ._slopes import AccelerationDerivatives, TorqueDerivatives
 
 __all__ = [
+    "AccelerationDerivatives",
     "Answer",
     "Answers",
     "ChainError",
@@ -50,6 +52,7 @@ __all__ = [
     "PoseError",
     "Robot",
     "ShapeError",
+    "TorqueDerivatives",
     "UnknownRobotError",
     "UnsupportedError",
     "UsageError",

@@ -23,10 +23,11 @@ def matrix_of(pose: Any) -> Floats:
         return pose
     if isinstance(pose, tuple) and len(pose) == 2:
         return _of_pair(*pose)
-    if hasattr(pose, "as_matrix"):
-        return np.asarray(pose.as_matrix(), dtype=np.float64)
-    if hasattr(pose, "A"):
-        matrix = pose.A
+    given: Any = pose
+    if hasattr(given, "as_matrix"):
+        return np.asarray(given.as_matrix(), dtype=np.float64)
+    if hasattr(given, "A"):
+        matrix = given.A
         return np.stack(matrix) if isinstance(matrix, list) else np.asarray(matrix, dtype=np.float64)
     try:
         return np.asarray(pose, dtype=np.float64)

@@ -19,6 +19,7 @@ from ._documents import Checked, checked_of, read_document
 from ._errors import FileError, Finding, ShapeError, findings_of
 from ._poses import matrix_of
 from ._rows import toml_of, value
+from ._slopes import AccelerationDerivatives, TorqueDerivatives, parts
 
 Floats = NDArray[Any]
 PathLike = Union[str, os.PathLike[str]]
@@ -446,6 +447,34 @@ class Robot:
     def energy(self, q: ArrayLike, qd: ArrayLike, *, threads: Optional[int] = None) -> Floats:
         """Kinetic and potential energy, joules, ``(..., 2)``; the rest as in `torque`."""
         return self._core.dynamics("energy", self._state(q=q, qd=qd), threads)
+
+    def torque_derivatives(
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *, threads: Optional[int] = None
+    ) -> TorqueDerivatives:
+        """Torques with their derivatives by ``q``, ``qd`` and ``qdd``, in one pass; the rest as in `torque`.
+
+        Coulomb friction counts as constant.
+
+        >>> from denavit import Robot
+        >>> pendulum = Robot.from_dh(
+        ...     [{"theta": "q1", "a": "1 m", "mass": "2 kg"}],
+        ...     convention="standard", gravity=[0, -9.81, 0],
+        ... )
+        >>> found = pendulum.torque_derivatives([0.0], [0.0], [1.0])
+        >>> found.torque, found.inertia
+        (array([21.62]), array([[2.]]))
+        """
+        state = self._state(q=q, qd=qd, qdd=qdd)
+        return TorqueDerivatives(*parts(self._core.dynamics("torque with derivatives", state, threads)))
+
+    def acceleration_derivatives(
+        self, q: ArrayLike, qd: ArrayLike, tau: ArrayLike, *, threads: Optional[int] = None
+    ) -> AccelerationDerivatives:
+        """Accelerations with their derivatives by ``q``, ``qd`` and ``tau``, in one pass; the rest as in `torque_derivatives`."""
+        state = self._state(q=q, qd=qd, tau=tau)
+        return AccelerationDerivatives(
+            *parts(self._core.dynamics("acceleration with derivatives", state, threads))
+        )
 
     def _state(self, **vectors: ArrayLike) -> Floats:
         """Vectors side by side, ``(..., k·n)``."""
