@@ -140,3 +140,42 @@ fn rows_of_followers_come_behind_those_they_follow() {
     let same = compare_chains(Tree::Bodies(&m), &back, &ends);
     assert_eq!((same.proved, same.count()), (2, 2), "{same:?}");
 }
+
+/// Limits of a joint that follows another are limits of what moves both, unless they would leave it no way to move.
+#[test]
+fn limits_of_followers_narrow_those_of_their_leaders() {
+    let joint = |name: &str, links: [&str; 2], limits: [f64; 2], more: &str| {
+        format!(
+            "<joint name='{name}' type='revolute'><parent link='{}'/><child link='{}'/><origin xyz='0.2 0 0.1' rpy='0.3 0 0'/><axis xyz='0 1 0'/>\
+             <limit lower='{}' upper='{}' effort='1' velocity='1'/>{more}</joint>",
+            links[0], links[1], limits[0], limits[1]
+        )
+    };
+    let tree = |follower: [f64; 2], mimic: &str| {
+        let (lead, follows) =
+            (joint("lead", ["a", "b"], [-1.0, 1.0], ""), joint("second", ["b", "c"], follower, mimic));
+        let text = format!(
+            "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{lead}{follows}</robot>"
+        );
+        read_urdf(&text, Decimals::AsWritten).unwrap().0
+    };
+    let limits = |m: &Mechanism| {
+        let chain = m.chain(None, None, Convention::Standard).unwrap().description;
+        let ends = chain.rows.iter().find_map(|r| r.limits).unwrap().map(|e| e.eval(|_| None).unwrap());
+        assert_eq!(m.variable_limits(), [Some(ends)]);
+        ends
+    };
+    let mimic = "<mimic joint='lead' multiplier='-1.5' offset='0.25'/>";
+    // −1 ≤ 0.25 − 1.5 q ≤ 1
+    let narrow = tree([-1.0, 1.0], mimic);
+    let near = |found: [f64; 2], wanted: [f64; 2]| {
+        assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {wanted:?}");
+    };
+    near(limits(&narrow), [-0.5, 1.25 / 1.5].map(|x: f64| x.clamp(-1.0, 1.0)));
+    near(limits(&tree([-2.0, 2.0], mimic)), [-1.0, 1.0]);
+    // A file of a gripper: both fingers from 0 to 0.8, one of them turned round.
+    near(limits(&tree([3.0, 4.0], mimic)), [-1.0, 1.0]);
+    // Written and read again.
+    let written = denavit::description::write_urdf(&narrow);
+    near(limits(&read_urdf(&written, Decimals::AsWritten).unwrap().0), [-0.5, 1.25 / 1.5]);
+}

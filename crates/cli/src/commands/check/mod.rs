@@ -16,6 +16,7 @@ use crate::load;
 use crate::terminal::{note, words};
 use denavit::description::{Diagnostic, Severity, line_column, render};
 use denavit_check::{CheckOptions, Checked, MAX_BYTES, Note, check};
+use denavit_load::Kind;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::Format;
 use rubric::Task;
@@ -50,6 +51,10 @@ impl Document<'_> {
 /// 1 if something in it is wrong, 3 if something cannot be read; and where there is no such robot or file.
 pub fn run(mut arguments: CheckArguments) -> Result<(), Failure> {
     let task = task(&mut arguments)?;
+    let robot = &arguments.robot.robot;
+    if arguments.files.is_empty() && matches!(Kind::of(robot), Some(Kind::Robot | Kind::Bodies | Kind::Par)) {
+        return Err(Failure::Usage(format!("{robot} is a robot: name the document behind it")));
+    }
     let files = listed(&arguments.files)?;
     match (&files[..], &arguments.files[..]) {
         ([] | [_], [] | [_]) if arguments.csv.is_none() && !arguments.files.iter().any(|f| f.is_dir()) => {

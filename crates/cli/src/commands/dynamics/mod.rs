@@ -101,7 +101,7 @@ struct Arm {
 pub fn numeric(d: &Description, file: &str) -> Result<Dynamics<f64>, Failure> {
     Dynamics::numeric(d).map_err(|why| match why {
         NoNumbers::NoMasses => Failure::Input(format!(
-            "error: {file}: it says nothing of masses\n  = hint: a URDF does, or mass, com and inertia in a robot file"
+            "error: {file}: it says nothing of masses\n  = hint: a URDF may, for the links of another --tip; or mass, com and inertia in a robot file"
         )),
         NoNumbers::Missing(missing) => without_values(d, file, &missing),
     })

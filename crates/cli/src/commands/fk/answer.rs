@@ -6,7 +6,6 @@ use denavit::forward::{Reference, frames_program};
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit_program::{Arithmetic, Function, Program};
-use denavit_symbolic::Expr;
 use denavit_wire::Schema;
 use denavit_wire::forward::{NamedPose, Placed, PlacedTree};
 use denavit_wire::pose::{matrices, matrix, matrix_of};
@@ -69,9 +68,7 @@ impl Answers {
     pub fn of_tree(m: &Mechanism, bodies: &[usize]) -> Self {
         let function = m.frames_program(bodies).compile(&[]);
         let joints: Vec<&Joint> = m.variables().into_iter().map(|j| &m.joints[j]).collect();
-        let number = |e: Expr| e.eval(|_| None).ok();
-        let limits = joints.iter().map(|j| j.limits.and_then(|[a, b]| Some([number(a)?, number(b)?])));
-        let mut limits: Vec<Option<[f64; 2]>> = limits.collect();
+        let mut limits = m.variable_limits();
         if limits.iter().all(Option::is_none) {
             limits.clear();
         }

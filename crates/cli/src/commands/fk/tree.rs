@@ -66,10 +66,9 @@ fn answer(arguments: &FkArguments, mechanism: &Mechanism, bodies: &[usize]) -> R
         (Some(path), _) => stream::run(answers, path),
         (None, text) => {
             let q = configuration(mechanism, text.as_deref())?;
-            let ends =
-                |j: &Joint| j.limits.and_then(|[low, high]| Some([value(low).ok()?, value(high).ok()?]));
-            for (joint, &x) in joints(mechanism).into_iter().zip(&q) {
-                warn_of_limits(&joint.name, kind(joint), ends(joint), x);
+            let limits = mechanism.variable_limits();
+            for ((joint, &x), ends) in joints(mechanism).into_iter().zip(&q).zip(limits) {
+                warn_of_limits(&joint.name, kind(joint), ends, x);
             }
             let results = answers.function.scalar().eval(&q).to_vec();
             let mut out = anstream::stdout();

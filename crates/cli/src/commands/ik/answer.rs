@@ -288,6 +288,10 @@ impl Report<'_> {
         }
         match away <= SAME {
             true => "\n  -q is a member of a family\n".into(),
+            false if self.question.ideal.is_some() => format!(
+                "\n  -q is {} from the nearest of these, which are those of the idealised arm, as their residuals are\n",
+                reading(away, JointKind::Revolute)
+            ),
             false => format!(
                 "\n  -q is {} from the nearest of these: so close are solutions to each other where the arm is nearly singular\n",
                 reading(away, JointKind::Revolute)

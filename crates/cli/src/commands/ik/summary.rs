@@ -73,6 +73,9 @@ pub fn text(e: &Explanation) -> String {
             text += &format!("  step {} {what} {}\n", k + 1, when.join(", "));
         }
     }
+    if let Some(target) = e.target() {
+        text += &format!("  p, n, o and a are those of {}, T the pose of the tool\n", formula(&target));
+    }
     for s in &e.leftovers {
         text += &format!("  the pose must meet {}\n", formula(&s.math));
     }

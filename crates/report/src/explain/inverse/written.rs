@@ -84,6 +84,21 @@ fn formula(math: Math) -> Block {
     Block::Formula { math, number: None, proof: None }
 }
 
+impl Explanation {
+    /// What of the pose T of the tool the formulas hold, U = B⁻¹ T E⁻¹, where a base or a tool is left out.
+    pub fn target(&self) -> Option<Math> {
+        let [base, tool] = &self.moved;
+        if base.is_none() && tool.is_none() {
+            return None;
+        }
+        let inverse = |f: &Vec<Factor>| f.iter().rev().map(|x| x.clone().inverse()).collect::<Vec<_>>();
+        let mut left: Vec<Factor> = base.iter().flat_map(inverse).collect();
+        left.push(Factor::named("T"));
+        left.extend(tool.iter().flat_map(inverse));
+        Some(Math::Products(vec![Factor::named("U")], left))
+    }
+}
+
 /// What is given and sought, the chain of matrices, what the names mean.
 fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let [base, tool] = &e.moved;
@@ -104,13 +119,7 @@ fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
         other => other.clone(),
     });
     blocks.push(formula(Math::Products(vec![Factor::named("U")], names.collect())));
-    if !is_whole {
-        let inverse = |f: &Vec<Factor>| f.iter().rev().map(|x| x.clone().inverse()).collect::<Vec<_>>();
-        let mut left: Vec<Factor> = base.iter().flat_map(inverse).collect();
-        left.push(Factor::named("T"));
-        left.extend(tool.iter().flat_map(inverse));
-        blocks.push(formula(Math::Products(vec![Factor::named("U")], left)));
-    }
+    blocks.extend(e.target().map(formula));
     for (name, factors) in &e.matrices {
         blocks.push(formula(Math::Products(vec![name.clone()], factors.clone())));
     }

@@ -57,7 +57,7 @@ impl Geometry for English {
             Whole::Tree => "tree's",
         };
         match agreement {
-            Agreement::Proved => format!("its table is proved to be the {whole} chain"),
+            Agreement::Proved => format!("its table is proved to be the {whole} chain as it was read"),
             Agreement::Within(by) if by < 1e-50 => format!("its table is the {whole} chain to 60 digits"),
             Agreement::Within(by) => format!("its table is the {whole} chain within {by:.0e}"),
         }

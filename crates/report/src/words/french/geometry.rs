@@ -67,7 +67,9 @@ impl Geometry for French {
             Whole::Tree => "de l’arbre",
         };
         match agreement {
-            Agreement::Proved => format!("il est prouvé que son tableau est la chaîne {whole}"),
+            Agreement::Proved => {
+                format!("il est prouvé que son tableau est la chaîne {whole}, telle qu’elle est lue")
+            }
             Agreement::Within(by) if by < 1e-50 => {
                 format!("son tableau est la chaîne {whole} à 60 chiffres près")
             }

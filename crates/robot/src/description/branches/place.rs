@@ -62,6 +62,7 @@ impl RowTree {
             poses: m.poses.iter().map(pose).collect(),
             gravity: m.gravity,
         };
+        let all: Vec<usize> = (0..m.joints.len()).collect();
         let mut row_of: Vec<usize> = vec![];
         for (placed, frame) in placed.iter().zip(&frames) {
             let seen = placed.after.map_or_else(|| frame.clone(), |a| frames[a].seen(frame));
@@ -87,7 +88,8 @@ impl RowTree {
             let own = joint.follows.is_none();
             last.variable = own.then(|| Variable { symbol: symbol(placed.joint), kind });
             last.name = Some(joint.name.clone());
-            (last.limits, last.velocity) = (joint.limits.filter(|_| own), joint.velocity.filter(|_| own));
+            let limits = || m.limits_among(placed.joint, &all);
+            (last.limits, last.velocity) = (own.then(limits).flatten(), joint.velocity.filter(|_| own));
             if own {
                 let followers = followers.get(&placed.joint).into_iter().flatten().copied();
                 let drive =

@@ -6,7 +6,7 @@ use crate::description::lines::{Agreement, AxisAtRest, ChainAtRest, NotPlaced, P
 use crate::description::{Convention, Description, JointKind, MAX_ROWS, diagnostic::nearest};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::real::Values;
-use denavit_symbolic::{Angle, Expr, Rational};
+use denavit_symbolic::{Expr, Rational};
 use std::fmt;
 
 /// A chain through a mechanism.
@@ -319,18 +319,13 @@ impl Mechanism {
     /// there as well and has any.
     fn limits_on(&self, joint: usize, way: &[usize]) -> (Option<[Expr; 2]>, Option<Expr>) {
         let own = &self.joints[joint];
+        let limits = self.limits_among(joint, way);
         let Some(follows) = own.follows.as_ref().filter(|f| way.contains(&f.joint)) else {
-            return (own.limits, own.velocity);
+            return (limits, own.velocity);
         };
         let leader = &self.joints[follows.joint];
-        let factor = Expr::from(follows.factor.clone());
-        let there = |x: Expr| Angle::of(factor * x + follows.offset).to_expr();
-        let limits = leader.limits.map(|[low, high]| match follows.factor < Rational::ZERO {
-            true => [there(high), there(low)],
-            false => [there(low), there(high)],
-        });
         let velocity = leader.velocity.map(|v| Expr::from(follows.factor.abs()) * v);
-        (limits.or(own.limits), velocity.or(own.velocity))
+        (limits, velocity.or(own.velocity))
     }
 }
 

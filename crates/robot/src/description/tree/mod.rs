@@ -5,6 +5,7 @@
 
 mod chain;
 mod compared;
+mod limits;
 mod masses;
 mod of;
 mod poses;

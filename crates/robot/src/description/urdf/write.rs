@@ -5,7 +5,7 @@
 
 use crate::description::JointKind;
 use crate::description::robot_file::exact_rpy;
-use crate::description::tree::{Joint, Mass, Mechanism, Solids, joint_names};
+use crate::description::tree::{Follows, Joint, Mass, Mechanism, Solids, joint_names};
 use crate::description::xml::{escaped, number};
 use crate::geometry::Rotation;
 use denavit_symbolic::{Expr, Rational};
@@ -59,7 +59,10 @@ fn looks(solids: &Solids, body: usize, moves: bool) -> String {
 fn write_joint(text: &mut String, tree: &Mechanism, names: &[String], j: usize) {
     let joint: &Joint = &tree.joints[j];
     let list = |v: [Expr; 3]| v.map(number).join(" ");
-    let kind = match (joint.kind, joint.limits) {
+    // A joint that follows another has limits through it.
+    let through = |f: &Follows| tree.limits_among(j, &[f.joint]);
+    let limits = joint.limits.or_else(|| joint.follows.as_ref().and_then(through));
+    let kind = match (joint.kind, limits) {
         (None, _) => "fixed",
         (Some(JointKind::Revolute), None) => "continuous",
         (Some(JointKind::Revolute), Some(_)) => "revolute",
@@ -84,7 +87,7 @@ fn write_joint(text: &mut String, tree: &Mechanism, names: &[String], j: usize) 
     }
     let known = |x: Option<Expr>| x.map_or("0".into(), number);
     let drive = format!("effort=\"{}\" velocity=\"{}\"", known(joint.effort), known(joint.velocity));
-    let ends = match (joint.kind, joint.limits) {
+    let ends = match (joint.kind, limits) {
         (Some(_), Some([low, high])) => Some((number(low), number(high))),
         (Some(JointKind::Prismatic), None) => Some((format!("-{NOWHERE}"), NOWHERE.into())),
         _ => None,
