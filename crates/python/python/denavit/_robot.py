@@ -16,7 +16,8 @@ from ._answers import Answer, Answers, answer_of, answers_of
 from ._denavit import Core
 from ._denavit import catalogue as _catalogue
 from ._documents import Checked, checked_of, read_document
-from ._errors import FileError, Finding, ShapeError, findings_of
+from ._errors import Finding, ShapeError, findings_of
+from ._files import write
 from ._poses import matrix_of
 from ._rows import toml_of, value
 from ._slopes import AccelerationDerivatives, TorqueDerivatives, parts
@@ -566,7 +567,7 @@ class Robot:
             functions = [part.strip() for part in functions.split(",")]
         files = dict(self._core.generate(language, list(functions), name, goal)[0])
         if folder is not None:
-            _write(Path(folder), files, overwrite)
+            write(Path(folder), files, overwrite)
         return files
 
     def report(self, format: str = "html", *, language: str = "en") -> str:
@@ -596,20 +597,3 @@ def _vector(q: Optional[ArrayLike], what: str) -> Optional[list[float]]:
         raise ShapeError(f"{what} holds a value that is not finite")
     result: list[float] = vector.tolist()
     return result
-
-
-def _write(folder: Path, files: Mapping[str, str], overwrite: bool) -> None:
-    """Writes all files or, if one would be overwritten, none."""
-    targets = {folder.joinpath(*path.split("/")): text for path, text in files.items()}
-    try:
-        for path, text in targets.items():
-            there = path.exists() and (path.is_dir() or path.read_text("utf-8", "replace") != text)
-            if there and (path.is_dir() or not overwrite):
-                raise FileError(f"{path} is there already, with other contents; overwrite=True replaces files")
-        for path, text in targets.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(text.encode("utf-8"))
-    except OSError as why:
-        if isinstance(why, FileError):
-            raise
-        raise FileError(f"{why.filename}: {why.strerror}") from None
