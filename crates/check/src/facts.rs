@@ -428,6 +428,8 @@ pub enum Condition {
     AsUsed,
     /// While other joints are at rest, as the text has some fixed.
     Locked,
+    /// Where a joint follows others as the text says, `q4 = -(q2 + q3)`.
+    Following,
     /// As an answer to a task that leaves this free.
     Placed(Box<Placement>),
 }

@@ -197,8 +197,10 @@ impl<'a> Judge<'a> {
                     let (correct, remarks) = (vec![], vec![]);
                     finding = Finding::Conditional { condition: Condition::Locked, correct, remarks };
                 }
-                if finding.standing() == Standing::Wrong && supposed::where_told(self.text, pair, robot) {
-                    finding = supposed::condition();
+                if finding.standing() == Standing::Wrong
+                    && let Some(condition) = supposed::where_told(self.text, pair, robot)
+                {
+                    finding = Finding::Conditional { condition, correct: vec![], remarks: vec![] };
                 }
                 let mut identities = vec![];
                 if finding.standing() == Standing::Equal {

@@ -37,16 +37,19 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     text
 }
 
+/// The lines with an `=` in them that are no longer than people write, each with its place.
+fn lines_with_equations(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    const LONGEST: usize = 2_000;
+    let lines = super::lines::lines(text).map(|line| (line.start, text.get(line).unwrap_or_default()));
+    lines.filter(|(_, source)| source.len() <= LONGEST && source.contains('='))
+}
+
 /// A text without the numbers in brackets behind others, `x = 160.0 (161), y = …`: they are measured, rounded or of another
 /// source; nothing for other texts.
 fn without_asides(text: &str) -> Option<String> {
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
-    for line in super::lines::lines(text) {
-        let source = text.get(line.clone()).unwrap_or_default();
-        if !source.contains('=') || source.len() > 2_000 {
-            continue;
-        }
+    for (start, source) in lines_with_equations(text) {
         for (open, _) in source.match_indices(" (") {
             let open = open + 1;
             let Some(close) = source[open..].find(')').map(|i| open + i) else { break };
@@ -57,7 +60,7 @@ fn without_asides(text: &str) -> Option<String> {
             let before = source[..open].trim_end();
             let word = before.rsplit([' ', '=']).next().unwrap_or_default();
             if is_end && is_number(inner) && is_number(word) {
-                bytes[line.start + open..=line.start + close].fill(b' ');
+                bytes[start + open..=start + close].fill(b' ');
                 is_any = true;
             }
         }
@@ -140,11 +143,7 @@ fn units_without_brackets(text: &str, is_program: bool) -> Option<String> {
 fn conjunctions(text: &str) -> Option<String> {
     let mut bytes = text.as_bytes().to_vec();
     let mut is_any = false;
-    for line in super::lines::lines(text) {
-        let source = text.get(line.clone()).unwrap_or_default();
-        if !source.contains('=') || source.len() > 2_000 {
-            continue;
-        }
+    for (start, source) in lines_with_equations(text) {
         for word in [" e ", " y ", " i ", " a ", " u "] {
             for (at, _) in source.match_indices(word) {
                 let Some((_, value)) = source[..at].rsplit_once('=') else { continue };
@@ -154,7 +153,7 @@ fn conjunctions(text: &str) -> Option<String> {
                 let is_next = name
                     .is_some_and(|n| n > 0 && n < 16 && behind[n..].trim_start_matches(' ').starts_with('='));
                 if is_next && value.parse::<f64>().is_ok() {
-                    bytes[line.start + at + 1] = b',';
+                    bytes[start + at + 1] = b',';
                     is_any = true;
                 }
             }
@@ -169,9 +168,9 @@ fn columns_by_words(text: &str) -> Option<String> {
         "column ", "spalte ", "colonne ", "columna ", "coluna ", "colonna ", "kolom ", "kolumna ",
         "sloupec ", "j(:,",
     ];
-    let lower = text.to_lowercase();
-    // Letters that change their length with their case would move what stands behind them.
-    if lower.len() != text.len() || !lower.contains("jacobi") {
+    // Byte for byte, as places are of the text.
+    let lower = text.to_ascii_lowercase();
+    if !lower.contains("jacobi") {
         return None;
     }
     let mut bytes = text.as_bytes().to_vec();

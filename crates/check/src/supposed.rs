@@ -19,17 +19,16 @@ use denavit_symbolic::{Expr, Symbol, equal};
 /// So many bytes before a formula a supposition may stand.
 const BEFORE: usize = 400;
 
-/// True for a formula that is right where a joint has the value that the words before it suppose: `in the posture q_3 = 0 the
-/// wrist is at …`.
-pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> bool {
+/// The condition of a formula that is right where a joint has the value that the words before it suppose, `in the posture q_3 = 0 the
+/// wrist is at …`, or follows others as these say.
+pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> Option<Condition> {
     let start =
         (pair.span.start.saturating_sub(BEFORE)..=pair.span.start).find(|&k| text.is_char_boundary(k));
-    let Some(window) = start.and_then(|s| text.get(s..pair.span.start)) else { return false };
+    let window = start.and_then(|s| text.get(s..pair.span.start))?;
     let parts: Vec<&str> = window.split("\n\n").collect();
     let window = parts[parts.len().saturating_sub(2)..].join(" ");
     let joints = subject.joints();
     let told = told_values(&window, subject);
-    let together = told_together(text, pair.span.start, subject);
     let mut points = Points::new(61);
     let mut holds = |given: &[(Symbol, Expr)]| {
         let there = |e: Expr| e.substitute(|s| given.iter().find(|g| g.0 == s).map(|g| g.1));
@@ -41,8 +40,11 @@ pub(super) fn where_told(text: &str, pair: &Pair, subject: &Subject) -> bool {
             && points.value(value).is_some_and(|v| points.value(wanted) == Some(v))
             && equal(value, wanted).is_equal()
     };
-    !told.is_empty() && (told.iter().any(|t| holds(&[*t])) || told.len() > 1 && holds(&told))
-        || together.iter().any(|t| holds(&[*t]))
+    if told.iter().any(|t| holds(&[*t])) || told.len() > 1 && holds(&told) {
+        return Some(Condition::Locked);
+    }
+    let together = told_together(text, pair.span.start, subject);
+    together.iter().any(|t| holds(&[*t])).then_some(Condition::Following)
 }
 
 /// Takes back what is refuted of the hand and right of another point that the words name, and values of another solution.
@@ -188,9 +190,4 @@ fn is_made_of_others(text: &str, assertion: &Assertion) -> bool {
         .any(|t| formula.contains(t));
     let is_grid = ["[", "\\begin", "|", "matrix"].iter().any(|g| formula.contains(g));
     is_bare && turns && !is_grid && formula.len() < 200
-}
-
-/// The condition under which such a formula is right.
-pub(super) fn condition() -> Finding {
-    Finding::Conditional { condition: Condition::Locked, correct: vec![], remarks: vec![] }
 }

@@ -1,6 +1,6 @@
 //! Words before a formula that give its letters another meaning than the usual one.
 
-use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_check::{CheckOptions, Checked, Condition, Finding, Standing, check};
 use denavit_reading::document::Format;
 
 fn read(text: &str) -> Checked {
@@ -93,7 +93,12 @@ fn joints_that_hang_together() {
     };
     let linkage = "The linkage keeps the flange level: q4 = -(q2 + q3). Hence";
     let right = "d1 - a2 sin q2 - a3 sin(q2 + q3)";
-    assert_eq!(standings(&text(linkage, right), "pz"), [Standing::Conditional]);
+    let found = read(&text(linkage, right));
+    let own = found.claims.iter().find(|c| c.name == "pz").unwrap();
+    assert!(
+        matches!(own.entries[0].finding, Finding::Conditional { condition: Condition::Following, .. }),
+        "{own:?}"
+    );
     assert_eq!(standings(&text("The position:", right), "pz"), [Standing::Wrong]);
     let wrong = "d1 - a2 sin q2 - a3 cos(q2 + q3)";
     assert_eq!(standings(&text(linkage, wrong), "pz"), [Standing::Wrong]);

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import UnsupportedError
+
 if TYPE_CHECKING:
     from ._robot import Robot
 
@@ -81,8 +83,14 @@ def solution_slopes(pose: Floats, jacobian: Floats) -> Floats:
     return np.where(unknown[..., None, None], np.nan, slopes)
 
 
+def refuse_redundant(robot: Robot) -> None:
+    """Raises `UnsupportedError` for an arm with more joints than the hand can use."""
+    if robot.n > 6:
+        raise UnsupportedError(f"{robot.name} has {robot.n} joints: solutions are no functions of the pose")
+
+
 def nearest_solutions(robot: Robot, pose: Floats, near: Floats) -> Floats:
-    """The solutions nearest to ``near`` ``(..., n)`` of poses ``(..., 4, 4)``; NaN where there is none."""
+    """The solutions nearest to ``near`` ``(..., n)`` of poses ``(..., 4, 4)``; NaN where none was found."""
     poses = np.asarray(pose, dtype=np.float64).reshape(-1, 4, 4)
     starts = np.asarray(near, dtype=np.float64).reshape(-1, robot.n)
     found = np.full(starts.shape, np.nan)

@@ -19,9 +19,9 @@ import jax  # type: ignore[import-not-found, unused-ignore]
 import jax.numpy as jnp  # type: ignore[import-not-found, unused-ignore]
 import numpy as np
 
-from ._errors import ShapeError, UnsupportedError
+from ._errors import ShapeError
 from ._robot import Robot
-from ._slopes import nearest_solutions, pose_slopes, solution_slopes
+from ._slopes import nearest_solutions, pose_slopes, refuse_redundant, solution_slopes
 
 Array = Any
 
@@ -75,16 +75,13 @@ class JaxRobot:
         return self._acceleration(*_rows(self.robot.n, q=q, qd=qd, tau=tau))
 
     def ik(self, pose: Array, near: Array) -> Array:
-        """The solutions nearest to ``near`` ``(..., n)`` for poses ``(..., 4, 4)``: ``(..., n)``; NaN where there is none.
+        """The solutions nearest to ``near`` ``(..., n)`` for poses ``(..., 4, 4)``: ``(..., n)``; NaN where none was found.
 
         Its derivative by a pose follows changes that keep it one; it is NaN where the arm is singular, and 0 by ``near``.
 
         Raises `UnsupportedError` for an arm with more joints than the hand can use: its solutions are families.
         """
-        if self.robot.n > 6:
-            raise UnsupportedError(
-                f"{self.robot.name} has {self.robot.n} joints: solutions are no functions of the pose"
-            )
+        refuse_redundant(self.robot)
         pose, (near,) = jnp.asarray(pose), _rows(self.robot.n, near=near)
         if pose.shape[-2:] != (4, 4):
             raise ShapeError(f"pose has the shape {pose.shape}; (..., 4, 4) is needed")

@@ -9,7 +9,8 @@
     degrees = kinematics.inverse_kinematics(degrees, pose)
     kinematics.residual                              # how far off the last pose is: metres, radians
 
-An arm with five joints reaches no arbitrary pose: what comes nearest by the weights is found, and `RobotKinematics.residual` says how near.
+An arm with five joints reaches no arbitrary pose: what comes nearest by the weights is sought from the current joints on, which may end at
+a local minimum; `RobotKinematics.residual` says how near it is.
 """
 
 from __future__ import annotations
@@ -83,8 +84,8 @@ class RobotKinematics:
     ) -> Floats:
         """Joints in degrees for a pose, near to the current ones; what stands behind `joint_names` comes back as it is.
 
-        The pose itself where the arm has it, in the solution next to the current joints within the limits; else what is nearest in the
-        sum of squares of the distance (m) times ``position_weight`` and the angle (rad) times ``orientation_weight``, from
+        The pose itself where the arm has it, in the solution next to the current joints within the limits; else a local minimum of the
+        sum of squares of the distance (m) times ``position_weight`` and the angle (rad) times ``orientation_weight``, by steps from
         the current joints on. A weight of 0 leaves that part free.
         """
         given = np.asarray(current_joint_pos, dtype=np.float64)

@@ -19,9 +19,9 @@ import numpy as np
 import torch  # type: ignore[import-not-found, unused-ignore]
 from torch.autograd.function import once_differentiable  # type: ignore[import-not-found, unused-ignore]
 
-from ._errors import ShapeError, UnsupportedError
+from ._errors import ShapeError
 from ._robot import Robot
-from ._slopes import nearest_solutions, pose_slopes, solution_slopes
+from ._slopes import nearest_solutions, pose_slopes, refuse_redundant, solution_slopes
 
 Tensor = Any
 
@@ -50,16 +50,13 @@ class TorchRobot:
         return _Dynamics.apply(robot.acceleration, robot.acceleration_derivatives, *vectors)
 
     def ik(self, pose: Tensor, near: Tensor) -> Tensor:
-        """The solutions nearest to ``near`` ``(..., n)`` for poses ``(..., 4, 4)``: ``(..., n)``; NaN where there is none.
+        """The solutions nearest to ``near`` ``(..., n)`` for poses ``(..., 4, 4)``: ``(..., n)``; NaN where none was found.
 
         Its gradient by a pose follows changes that keep it one; it is NaN where the arm is singular, and 0 by ``near``.
 
         Raises `UnsupportedError` for an arm with more joints than the hand can use: its solutions are families.
         """
-        if self.robot.n > 6:
-            raise UnsupportedError(
-                f"{self.robot.name} has {self.robot.n} joints: solutions are no functions of the pose"
-            )
+        refuse_redundant(self.robot)
         (near,) = _rows(self.robot.n, near=near)
         if tuple(pose.shape[-2:]) != (4, 4):
             raise ShapeError(f"pose has the shape {tuple(pose.shape)}; (..., 4, 4) is needed")

@@ -197,6 +197,7 @@ fn conditions_and_doubts() {
         Condition::OwnSign,
         Condition::AsUsed,
         Condition::Locked,
+        Condition::Following,
         Condition::Placed(Box::new(placed())),
         Condition::Incomplete(None),
         Condition::Incomplete(Some(MISSING)),

@@ -221,6 +221,7 @@ impl Check for English {
             Condition::Orientations(all) => format!("where {}", positive(all, " and ")),
             Condition::AsUsed => "as far as what uses it is right".into(),
             Condition::Locked => "while other joints are at rest".into(),
+            Condition::Following => "where a joint follows others as the text says".into(),
             Condition::Placed(placement) => {
                 format!("as the same mechanism, if the task leaves this free: {}", placed(placement))
             }

@@ -236,6 +236,7 @@ impl Check for French {
             Condition::Orientations(all) => format!("pour {}", positive(all, " et ")),
             Condition::AsUsed => printed("dans la mesure où ce qui l'utilise est juste"),
             Condition::Locked => printed("tant que d'autres articulations sont immobiles"),
+            Condition::Following => printed("là où une articulation en suit d'autres, comme le texte le dit"),
             Condition::Placed(placement) => {
                 say!("comme même mécanisme, si l'énoncé laisse ceci libre : ") + &placed(placement)
             }

@@ -62,7 +62,12 @@ impl RowTree {
             poses: m.poses.iter().map(pose).collect(),
             gravity: m.gravity,
         };
-        let all: Vec<usize> = (0..m.joints.len()).collect();
+        let limits: HashMap<usize, [Expr; 2]> = m
+            .variables()
+            .into_iter()
+            .zip(m.limits_of_variables())
+            .filter_map(|(j, limits)| Some((j, limits?)))
+            .collect();
         let mut row_of: Vec<usize> = vec![];
         for (placed, frame) in placed.iter().zip(&frames) {
             let seen = placed.after.map_or_else(|| frame.clone(), |a| frames[a].seen(frame));
@@ -88,8 +93,9 @@ impl RowTree {
             let own = joint.follows.is_none();
             last.variable = own.then(|| Variable { symbol: symbol(placed.joint), kind });
             last.name = Some(joint.name.clone());
-            let limits = || m.limits_among(placed.joint, &all);
-            (last.limits, last.velocity) = (own.then(limits).flatten(), joint.velocity.filter(|_| own));
+            // Variables alone are in the map.
+            (last.limits, last.velocity) =
+                (limits.get(&placed.joint).copied(), joint.velocity.filter(|_| own));
             if own {
                 let followers = followers.get(&placed.joint).into_iter().flatten().copied();
                 let drive =

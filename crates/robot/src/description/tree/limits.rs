@@ -2,6 +2,7 @@
 
 use super::Mechanism;
 use denavit_symbolic::{Angle, Expr, Rational};
+use std::collections::HashMap;
 
 /// Limits that are nearer to each other leave a joint no way to move, radians or metres.
 const LEAST: f64 = 1e-9;
@@ -12,9 +13,9 @@ impl Mechanism {
     /// follow others.
     pub fn limits_among(&self, joint: usize, among: &[usize]) -> Option<[Expr; 2]> {
         let (leader, factor, offset) = self.course(joint);
+        let others = among.iter().copied().filter(|&j| j != joint && self.leader(j) == leader);
+        let mut along: Vec<usize> = std::iter::once(joint).chain(others).collect();
         // The leader first: its limits count in any case.
-        let is_along = |j: &usize| *j == joint || among.contains(j) && self.course(*j).0 == leader;
-        let mut along: Vec<usize> = (0..self.joints.len()).filter(is_along).collect();
         along.sort_by_key(|&j| (j != leader, j != joint));
         let mut found: Option<[Expr; 2]> = None;
         for j in along {
@@ -35,13 +36,29 @@ impl Mechanism {
 
     /// The limits of the variables, narrowed by those of all joints that follow them, in doubles.
     pub fn variable_limits(&self) -> Vec<Option<[f64; 2]>> {
-        let all: Vec<usize> = (0..self.joints.len()).collect();
         let number = |e: Expr| e.eval(|_| None).ok();
-        let of = |j: usize| self.limits_among(j, &all).and_then(|[a, b]| Some([number(a)?, number(b)?]));
-        self.variables().into_iter().map(of).collect()
+        let of = |ends: Option<[Expr; 2]>| ends.and_then(|[a, b]| Some([number(a)?, number(b)?]));
+        self.limits_of_variables().map(of).collect()
     }
 
-    /// What moves a joint, itself or the one that it follows, by how much, and what is added.
+    /// The same exactly.
+    pub(in crate::description) fn limits_of_variables(&self) -> impl Iterator<Item = Option<[Expr; 2]>> {
+        let mut followers: HashMap<usize, Vec<usize>> = HashMap::new();
+        for (j, joint) in self.joints.iter().enumerate() {
+            if let Some(f) = &joint.follows {
+                followers.entry(f.joint).or_default().push(j);
+            }
+        }
+        let of = move |j: usize| self.limits_among(j, followers.get(&j).map_or(&[], Vec::as_slice));
+        self.variables().into_iter().map(of)
+    }
+
+    /// What moves a joint: itself, or the one that it follows.
+    fn leader(&self, joint: usize) -> usize {
+        self.joints[joint].follows.as_ref().map_or(joint, |f| f.joint)
+    }
+
+    /// What moves a joint, by how much, and what is added.
     fn course(&self, joint: usize) -> (usize, Rational, Expr) {
         match &self.joints[joint].follows {
             Some(f) => (f.joint, f.factor.clone(), f.offset),
