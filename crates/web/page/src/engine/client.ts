@@ -48,10 +48,7 @@ export class Remote {
   }
 
   call<K extends Op>(op: K, input: Input<K>): Promise<Output<K>> {
-    if (!this.#worker) {
-      this.#worker = this.#start();
-      if (this.#edited) void this.call("edit", this.#edited).catch(() => {});
-    }
+    this.#begin();
     const id = ++this.#last;
     return new Promise<Output<K>>((resolve, reject) => {
       this.#waiting.push({ id, op, resolve: resolve as (answer: unknown) => void, reject });
@@ -61,7 +58,7 @@ export class Remote {
 
   /** Starts the worker and what of the engine answers a request, before it is asked. */
   prepare(op: Op): void {
-    this.#worker ??= this.#start();
+    this.#begin();
     this.#post({ prepare: op });
   }
 
@@ -71,6 +68,13 @@ export class Remote {
     this.#worker?.terminate();
     this.#worker = null;
     for (const one of this.#waiting.splice(0)) one.reject(new Cancelled());
+  }
+
+  /** Starts the worker, and tells it the robot, unless it runs. */
+  #begin(): void {
+    if (this.#worker) return;
+    this.#worker = this.#start();
+    if (this.#edited) void this.call("edit", this.#edited).catch(() => {});
   }
 
   #start(): Worker {
