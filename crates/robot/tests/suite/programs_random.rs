@@ -155,11 +155,13 @@ impl Writer {
                 ])
                 .into(),
             18 => {
-                let head = match self.below(5) {
+                let head = match self.below(7) {
                     0 => format!("for i in range({}):", self.below(4)),
                     1 => "for w in u:".into(),
                     2 => "for l in L:".into(),
                     3 => "for i, w in enumerate(v):".into(),
+                    4 => "for i, l in enumerate(L):".into(),
+                    5 => "for l in reversed(L):".into(),
                     _ => "for w, l in zip(u, L):".into(),
                 };
                 self.line(&head);

@@ -254,6 +254,9 @@ impl<'p> Run<'p> {
                 if self.step(items.len(), span) {
                     return None;
                 }
+                if name == "reversed" {
+                    return Some(self.store.lazily(items, values));
+                }
                 if is_array {
                     // Rows are arrays of their own.
                     for item in &mut items {
@@ -265,6 +268,12 @@ impl<'p> Run<'p> {
                             *item = self.store.list(inner, true);
                         }
                     }
+                }
+                // What can be gone through but once is used up.
+                if let (true, [one]) = (matches!(name, "list" | "tuple"), values) {
+                    let mut through = self.store.through(one).ok()?;
+                    while let Ok(Some(_)) = self.store.next(&mut through) {}
+                    self.store.used(&through);
                 }
                 Some(self.store.list(items, is_array))
             }
@@ -290,7 +299,7 @@ impl<'p> Run<'p> {
                     let number = Formula::integer(first + i64::try_from(k).ok()?, span.clone());
                     pairs.push(self.store.list(vec![Value::Number(number), item], false));
                 }
-                Some(self.store.list(pairs, false))
+                Some(self.store.lazily(pairs, &values[..1]))
             }
             ("zip", [_, ..]) => {
                 let all: Vec<Vec<Value>> =
@@ -302,7 +311,7 @@ impl<'p> Run<'p> {
                 let tuples = (0..shortest).map(|k| all.iter().map(|a| a[k].clone()).collect::<Vec<_>>());
                 let tuples: Vec<Value> =
                     tuples.collect::<Vec<_>>().into_iter().map(|t| self.store.list(t, false)).collect();
-                Some(self.store.list(tuples, false))
+                Some(self.store.lazily(tuples, values))
             }
             ("len" | "length" | "numel", [one]) => match one {
                 Value::Robot(k) => Some(count(self.store.robots[*k].links.len())),

@@ -3,7 +3,7 @@
 
 use super::code::Language;
 use super::parse::{Act, Form, Function, Node, Round, Statement};
-use super::value::{Formula, Lost, MAX_ITEMS, Store, Value};
+use super::value::{Formula, Lost, MAX_ITEMS, Store, Through, Value};
 use crate::description::diagnostic::{Diagnostic, Severity};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -306,35 +306,55 @@ impl<'p> Run<'p> {
 
     fn repeat(&mut self, round: &'p Round, body: &'p [Statement], span: &Range<usize>) -> Flow {
         let values = self.value(&round.values);
-        let Ok(items) = self.rounds(&values) else {
-            let unknown = self.unknown(&round.values.span);
-            self.set(&round.target, unknown);
-            self.perhaps(&[body], &(span.start..round.values.span.end), true);
-            return Flow::Goes;
+        let Ok(mut through) = self.rounds(&values) else {
+            return self.perhaps_often(round, &values, body, span);
         };
-        for item in items {
+        let flow = loop {
+            let item = match self.store.next(&mut through) {
+                Ok(Some(item)) => item,
+                Ok(None) => break Flow::Goes,
+                Err(_) => break self.perhaps_often(round, &values, body, span),
+            };
             if self.step(1, span) {
-                break;
+                break Flow::Goes;
             }
             self.set(&round.target, item);
             match self.block(body) {
-                Flow::Breaks => break,
-                Flow::Returns(value) => return Flow::Returns(value),
+                Flow::Breaks => break Flow::Goes,
+                Flow::Returns(value) => break Flow::Returns(value),
                 Flow::Goes | Flow::Continues => {}
             }
+        };
+        self.store.used(&through);
+        flow
+    }
+
+    /// A loop of which it is not known what it goes through: what it may go through is not known behind it.
+    fn perhaps_often(
+        &mut self,
+        round: &'p Round,
+        values: &Value,
+        body: &'p [Statement],
+        span: &Range<usize>,
+    ) -> Flow {
+        let lost = self.lost(span, "is not followed: it changes what it goes through");
+        for list in self.store.read_by(values) {
+            self.store.lose(&list, &lost);
         }
+        let unknown = self.unknown(&round.values.span);
+        self.set(&round.target, unknown);
+        self.perhaps(&[body], &(span.start..round.values.span.end), true);
         Flow::Goes
     }
 
     /// What a loop goes through: MATLAB's goes through columns.
-    fn rounds(&self, values: &Value) -> Result<Vec<Value>, Option<Lost>> {
+    fn rounds(&self, values: &Value) -> Result<Through, Option<Lost>> {
         match values {
-            Value::Matrix(rows) if rows.len() != 1 => match rows.first() {
-                None => Ok(vec![]),
-                Some(_) => Err(None),
-            },
-            Value::Number(_) if !self.is_python() => Ok(vec![values.clone()]),
-            _ => self.store.items(values),
+            Value::Matrix(rows) if rows.len() > 1 => Err(None),
+            Value::Number(_) if !self.is_python() => {
+                self.store.through(&Value::Matrix(vec![vec![values.clone()]].into()))
+            }
+            _ => self.store.through(values),
         }
     }
 
@@ -512,13 +532,21 @@ impl<'p> Run<'p> {
             return Some(());
         };
         let values = self.value(&first.values);
-        let all = self.store.items(&values).ok()?;
+        let mut through = self.store.through(&values).ok()?;
         let kept = self.scopes.last().cloned()?;
         if self.step(kept.len(), &body.span) {
             return None;
         }
         let mut found = Some(());
-        for one in all {
+        loop {
+            let one = match self.store.next(&mut through) {
+                Ok(Some(one)) => one,
+                Ok(None) => break,
+                Err(_) => {
+                    found = None;
+                    break;
+                }
+            };
             if self.step(1, &body.span) {
                 return None;
             }
@@ -538,6 +566,7 @@ impl<'p> Run<'p> {
                 break;
             }
         }
+        self.store.used(&through);
         *self.scopes.last_mut()? = kept;
         found
     }

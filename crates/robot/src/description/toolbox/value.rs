@@ -123,7 +123,16 @@ pub(super) struct List {
     pub is_array: bool,
     /// The array that it is a part of: numpy's parts change with the whole.
     pub part_of: Option<usize>,
+    /// Of `zip` and its like, which read lists only when they are gone through: what those held when this was made.
+    pub reads: Vec<(usize, Vec<Value>)>,
     pub lost: Option<Lost>,
+}
+
+/// Where a loop is in what it goes through: a list may change under way.
+pub(super) struct Through {
+    /// Its list; else all values.
+    list: Result<usize, std::vec::IntoIter<Value>>,
+    at: usize,
 }
 
 /// A body of a `rigidBodyTree`.
@@ -148,8 +157,66 @@ pub(super) struct Store {
 
 impl Store {
     pub fn list(&mut self, items: Vec<Value>, is_array: bool) -> Value {
-        self.lists.push(List { items, is_array, part_of: None, lost: None });
+        self.lists.push(List { items, is_array, part_of: None, reads: vec![], lost: None });
         Value::List(self.lists.len() - 1)
+    }
+
+    /// What goes through lists, and has these values as long as they are not changed.
+    pub fn lazily(&mut self, items: Vec<Value>, of: &[Value]) -> Value {
+        let mut reads = vec![];
+        for k in of.iter().filter_map(|v| if let Value::List(k) = v { Some(*k) } else { None }) {
+            match self.lists[k].reads.is_empty() {
+                true => reads.push((k, self.lists[k].items.clone())),
+                false => reads.extend(self.lists[k].reads.iter().cloned()),
+            }
+        }
+        self.lists.push(List { items, is_array: false, part_of: None, reads, lost: None });
+        Value::List(self.lists.len() - 1)
+    }
+
+    /// True for a list whose items are not what it will be read as.
+    fn is_overtaken(&self, k: usize) -> bool {
+        self.lists[k]
+            .reads
+            .iter()
+            .any(|(of, items)| self.lists[*of].items != *items || self.lists[*of].lost.is_some())
+    }
+
+    /// A list with those that it reads; nothing of other values.
+    pub fn read_by(&self, value: &Value) -> Vec<Value> {
+        let Value::List(k) = value else { return vec![] };
+        let reads = self.lists[*k].reads.iter().map(|r| Value::List(r.0));
+        reads.chain([value.clone()]).collect()
+    }
+
+    /// Begins to go through a value.
+    pub fn through(&self, value: &Value) -> Result<Through, Option<Lost>> {
+        let items = self.items(value)?;
+        let list = if let Value::List(k) = value { Ok(*k) } else { Err(items.into_iter()) };
+        Ok(Through { list, at: 0 })
+    }
+
+    /// The next value, if there is one and it is known.
+    pub fn next(&self, through: &mut Through) -> Result<Option<Value>, Option<Lost>> {
+        let k = match &mut through.list {
+            Ok(k) => *k,
+            Err(items) => return Ok(items.next()),
+        };
+        if self.lists[k].lost.is_some() || self.is_overtaken(k) {
+            return Err(self.lists[k].lost.clone());
+        }
+        through.at += 1;
+        Ok(self.lists[k].items.get(through.at - 1).cloned())
+    }
+
+    /// Takes what was gone through out of what can be gone through but once.
+    pub fn used(&mut self, through: &Through) {
+        if let Ok(k) = through.list
+            && !self.lists[k].reads.is_empty()
+        {
+            let items = &mut self.lists[k].items;
+            items.drain(..through.at.min(items.len()));
+        }
     }
 
     /// Says that this is not known any more, nor what it holds; robots in lists stay as they are.
@@ -200,6 +267,7 @@ impl Store {
         match value {
             Value::List(k) => match &self.lists[*k].lost {
                 Some(lost) => Err(Some(lost.clone())),
+                None if self.is_overtaken(*k) => Err(None),
                 None => Ok(self.lists[*k].items.clone()),
             },
             Value::Matrix(rows) if rows.len() == 1 => Ok(rows[0].clone()),
