@@ -196,6 +196,9 @@ fn file(arguments: &RobotArguments, kind: Kind) -> Result<Contents, Failure> {
 /// How the arguments want their file to be read.
 fn options(arguments: &RobotArguments) -> Result<Options, Failure> {
     let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
+    if let Some((name, folder)) = packages.iter().find(|p| !Path::new(&p.1).is_dir()) {
+        return Err(Failure::Usage(format!("--package {name}={folder}: there is no such folder")));
+    }
     Ok(Options {
         arguments: pairs(&arguments.arg, "--arg", "name=ur5")?,
         as_written: arguments.as_written,
@@ -252,10 +255,9 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
                 Some(Kind::Table(kind)) => Some(read_table_robot(text, kind, &table_options(arguments))),
                 _ => None,
             };
-            // Standard input can be read but once: it is one chain.
             let text = match (listed, kind) {
                 (Some(text), _) => Some(text),
-                (None, Some(Kind::Robot | Kind::Table(_))) if name != "-" => contents(name, MAX_BYTES).ok(),
+                (None, Some(Kind::Robot | Kind::Table(_))) => contents(name, MAX_BYTES).ok(),
                 _ => None,
             };
             let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().and_then(read) else {

@@ -1,16 +1,15 @@
 //! What a name stands for: an arm of the catalogue, or a file of some kind.
 
+use crate::read::bytes;
 use denavit::catalogue;
 use denavit::description::{Language, TableKind, root_element};
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 /// The endings of files of bodies and joints, and those of others that are known.
 const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
 const OTHERS: [&str; 10] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par", "m", "py"];
 /// How much of a file is looked at for its root element.
-const HEAD: u64 = 1 << 16;
+const HEAD: usize = 1 << 16;
 
 /// Which endings files have, in words.
 pub const ENDINGS: &str = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex, a program in .m or .py";
@@ -31,10 +30,11 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// By the ending of a file, or by its root element where the ending says nothing; `-` is standard input, a table.
+    /// By the ending of a file, or by its root element where the ending says nothing; `-` is standard input: bodies by
+    /// its root element, a robot file by its heads, else a table.
     pub fn of(name: &str) -> Option<Self> {
         match Path::new(name).extension().and_then(|e| e.to_str()) {
-            _ if name == "-" => Some(Kind::Table(TableKind::Markdown)),
+            _ if name == "-" => Some(of_text(&head(name))),
             Some("toml") => Some(Kind::Robot),
             Some("md" | "markdown" | "txt") => Some(Kind::Table(TableKind::Markdown)),
             Some("csv" | "tsv") => Some(Kind::Table(TableKind::Csv)),
@@ -53,13 +53,33 @@ impl Kind {
 pub fn is_tree(name: &str) -> bool {
     let path = Path::new(name);
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    if TREES.contains(&ending) || OTHERS.contains(&ending) || name == "-" || !path.is_file() {
-        return TREES.contains(&ending);
+    let is_open = name == "-" || (!OTHERS.contains(&ending) && path.is_file());
+    TREES.contains(&ending) || (is_open && has_bodies(&head(name)))
+}
+
+/// The beginning of a file or of standard input; nothing of what cannot be read.
+fn head(name: &str) -> String {
+    bytes(name, HEAD).map_or(String::new(), |b| String::from_utf8_lossy(&b).into_owned())
+}
+
+/// True for what begins as a file of bodies does.
+fn has_bodies(text: &str) -> bool {
+    matches!(root_element(text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
+}
+
+/// What a text without a name holds.
+fn of_text(text: &str) -> Kind {
+    // The head of an array of tables, as a robot file has one for each joint.
+    let is_head = |line: &str| {
+        let name = line.trim().strip_prefix("[[").and_then(|l| l.strip_suffix("]]"));
+        name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+    };
+    let is_robot = text.lines().any(is_head);
+    match () {
+        () if has_bodies(text) => Kind::Bodies,
+        () if is_robot => Kind::Robot,
+        () => Kind::Table(TableKind::Markdown),
     }
-    let mut head = vec![];
-    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    let text = String::from_utf8_lossy(&head);
-    read.is_ok() && matches!(root_element(&text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
 }
 
 /// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.

@@ -13,4 +13,4 @@ mod read;
 pub use folder::{Folder, Found, plain};
 pub use kind::{ENDINGS, Kind, catalogue_name, close_names, is_tree, listed};
 pub use named::{frame, joint};
-pub use read::{Content, Contents, Finding, Options, Problem, contents, read};
+pub use read::{Content, Contents, Finding, Options, Problem, bytes, contents, read};

@@ -81,7 +81,7 @@ pub struct RobotsArguments {
 #[derive(Args)]
 pub struct RobotArguments {
     /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex) or program that makes a robot
-    /// (.m, .py); - reads a table from standard input
+    /// (.m, .py); - reads a robot file, URDF, MJCF or table from standard input
     pub robot: String,
     /// Give a parameter a value, as in `--set D3=450mm` (can be repeated)
     #[arg(long = "set", value_name = "NAME=VALUE")]

@@ -517,3 +517,20 @@ fn bodies_that_are_called_as_the_base_is() {
         assert!(code == 0 && said.contains("3 of 3 chains are proved to be the same"), "{to}: {said}\n{out}");
     }
 }
+
+/// What comes through standard input is read as what it is.
+#[test]
+fn standard_input_is_any_description() {
+    let written = |to| run(&["convert", "ur5", "--to", to]).1;
+    let table = "convention: standard\n\n| joint | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0.5 | 0 |\n| 2 | q2 | 0 | 0.3 | 0 |\n";
+    let pose = |input: &str, q: &str| {
+        let output = fed(&["fk", "-", "-q", q, "--json"], input);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+        value["pose"][0][3].as_f64().unwrap()
+    };
+    let q = "0.1,-0.4,0.3,0.2,0.5,0.6";
+    let [a, b] = ["urdf", "toml"].map(|to| pose(&written(to), q));
+    assert!((a - b).abs() < 1e-12, "{a} {b}");
+    assert!((pose(table, "0.1,0.2") - 0.5 * 0.1f64.cos() - 0.3 * 0.3f64.cos()).abs() < 1e-12);
+}

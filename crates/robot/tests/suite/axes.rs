@@ -221,3 +221,24 @@ fn what_is_wrong_with_axes_has_its_place() {
         assert_eq!(found, expected, "{text}");
     }
 }
+
+/// Forty joints whose frames are turned by decimals: exactly, an entry at the end is a sum of 2⁴⁰ products.
+#[test]
+fn long_chains_with_decimals_for_angles_are_written() {
+    let mut random = Random(11);
+    let mut text = String::from("name = \"Snake\"\nconvention = \"standard\"\n");
+    for k in 1..=40 {
+        let (a, alpha) = (0.1 + random.unit(), 1.0 + random.unit());
+        text += &format!("\n[[joints]]\ntheta = \"q{k}\"\na = {a:.3}\nalpha = \"{alpha:.4} rad\"\n");
+    }
+    let d = read(&text);
+    let robot = Robot::numeric(&d).unwrap();
+    let q: Vec<f64> = (0..40).map(|_| random.unit() * 6.0 - 3.0).collect();
+    for way in WAYS {
+        let written = write_axes(&d, way).unwrap();
+        let back = Robot::numeric(&read(&written)).unwrap();
+        let (there, here) = (robot.pose(&q), back.pose(&q));
+        let apart = (there.translation - here.translation).norm();
+        assert!(apart < 1e-12, "{way:?}: {apart}");
+    }
+}

@@ -192,6 +192,9 @@ fn conditions_arguments_and_files() {
         ("/arms/lengths.xacro", "<xacro:property name='n' value='7'/>"),
     ];
     let text = format!("{main}{}", joint("${l} ${k} ${n + $(arg x)}", "0 0 0"));
+    let unasked = with(&text, &files, &[("X", "0.2"), ("long", "true")]).0.unwrap().1;
+    let messages: Vec<&str> = unasked.iter().map(|d| &*d.message).collect();
+    assert_eq!(messages, ["no argument `X` is asked for: its value is not used"]);
     let read = |arguments: &[(&str, &str)]| place(&with(&text, &files, arguments).0.unwrap().0);
     assert_eq!(read(&[]), [decimal("1"), decimal("3"), decimal("7.1")]);
     assert_eq!(read(&[("long", "true"), ("x", "-1")]), [decimal("2"), decimal("3"), decimal("6")]);

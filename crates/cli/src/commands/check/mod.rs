@@ -21,7 +21,7 @@ use denavit_reading::code::Dialect;
 use denavit_reading::document::Format;
 use rubric::Task;
 use std::fs;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// A document with what was found in it.
@@ -249,14 +249,8 @@ fn verdict(document: &Document) -> Result<(), Failure> {
 
 /// The text of a file or of standard input.
 fn contents(name: &str) -> Result<String, Failure> {
-    let limit = MAX_BYTES as u64 + 1;
-    let mut bytes = vec![];
-    let read = if name == "-" {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)
-    } else {
-        fs::File::open(Path::new(name)).and_then(|f| f.take(limit).read_to_end(&mut bytes))
-    };
-    read.map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    let bytes =
+        denavit_load::bytes(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
     decoded(&bytes).ok_or_else(|| Failure::Input(format!("error: {name}: this is not a text")))
 }
 

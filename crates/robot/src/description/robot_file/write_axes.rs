@@ -129,9 +129,24 @@ fn short(e: Expr) -> Expr {
     let Some(x) = Values::default().of(e) else { return e };
     match x.to_expr() {
         Some(exact) => exact,
-        None if write_cell(e, Quantity::Number).len() > LONG => x.settled(),
+        None if is_long(e) => x.settled(),
         None => e,
     }
+}
+
+/// True for a formula whose text has more than [`LONG`] bytes; it is written only if it is no tree with more leaves, as a formula
+/// that shares its parts can be a text of any length.
+fn is_long(e: Expr) -> bool {
+    let (mut open, mut leaves) = (vec![e], 0);
+    while let Some(e) = open.pop() {
+        let before = open.len();
+        open.extend(e.children());
+        leaves += usize::from(open.len() == before);
+        if leaves > LONG || open.len() > LONG {
+            return true;
+        }
+    }
+    write_cell(e, Quantity::Number).len() > LONG
 }
 
 fn settled_frame(chain: &ChainAtRest) -> Transform<Expr> {

@@ -90,6 +90,7 @@ pub fn read_xacro(
     let Some(tree) = parse(text, 0, &mut out) else { return (out.finish(None), files) };
     let mut xacro = Xacro::new(files, out, sources, arguments);
     let tree = if is_xacro(&tree) { expand(&mut xacro, tree) } else { Some(tree) };
+    xacro.say_unasked();
     let calls = xacro.first_calls();
     let Xacro { files, out, .. } = xacro;
     let Some(tree) = tree.filter(|_| !out.has_errors()) else { return (out.finish(None), files) };

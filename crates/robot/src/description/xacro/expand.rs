@@ -64,6 +64,7 @@ impl Xacro<'_> {
             }
             "arg" => {
                 let name = needs("name")?.value.text.clone();
+                self.unasked.remove(&name);
                 if let Some(default) = attribute("default")
                     && !self.arguments.contains_key(&name)
                 {

@@ -17,7 +17,7 @@ use denavit_symbolic::Expr;
 use expression::Asked;
 use macros::Macro;
 use scope::{Lazy, Scope, Scopes, Stored};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::rc::Rc;
 use value::{Fault, Val};
@@ -34,6 +34,8 @@ pub(super) struct Xacro<'s> {
     pub out: Diagnostics,
     sources: &'s mut dyn Sources,
     arguments: BTreeMap<String, String>,
+    /// The arguments that were given and that nothing has asked for yet.
+    unasked: BTreeSet<String>,
     macros: Scopes<Rc<Macro>>,
     scopes: Scopes<Stored>,
     /// What files of YAML hold, by the file that names them and their name there.
@@ -85,6 +87,7 @@ impl<'s> Xacro<'s> {
             out,
             sources,
             arguments: arguments.iter().cloned().collect(),
+            unasked: arguments.iter().map(|a| a.0.clone()).collect(),
             macros: Scopes::new(),
             scopes: Scopes::new(),
             values: HashMap::new(),
@@ -242,10 +245,28 @@ impl<'s> Xacro<'s> {
 
     /// The value of an argument.
     fn argument(&mut self, name: &str) -> Result<String, Fault> {
+        self.unasked.remove(name);
         self.arguments.get(name).cloned().ok_or_else(|| {
             let hint = format!("give it: --arg {0}=VALUE", shown(name));
             Fault::new(format!("the argument `{}` is not given", shown(name))).hint(hint)
         })
+    }
+
+    /// Warns of arguments that the files know nothing of.
+    pub fn say_unasked(&mut self) {
+        for name in std::mem::take(&mut self.unasked) {
+            let near = super::diagnostic::nearest(
+                &name,
+                self.arguments.keys().map(String::as_str).filter(|n| **n != name),
+            );
+            let hint = near.map(|n| format!("did you mean `{n}`?"));
+            let finding = self
+                .out
+                .warning(0..0, format!("no argument `{}` is asked for: its value is not used", shown(&name)));
+            if let Some(hint) = hint {
+                finding.hint(hint);
+            }
+        }
     }
 
     /// The folder of a package.
