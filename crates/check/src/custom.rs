@@ -47,6 +47,19 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     found
 }
 
+/// Words for an angular velocity, which is `wx, wy, wz` for those who write no ω.
+const ANGULAR: [&str; 9] = [
+    "angular",
+    "angulaire",
+    "vitesse de rotation",
+    "vitesses de rotation",
+    "winkelgeschw",
+    "drehgeschw",
+    "angolare",
+    "hoeksnelheid",
+    "rotational velocity",
+];
+
 /// Joint rates, and the velocity of the hand in them.
 fn rates(subject: &Subject, text: &str, plain: &str, add: &mut Add<'_>) {
     let speaks = speaks_of_speed(text);
@@ -83,7 +96,7 @@ fn rates(subject: &Subject, text: &str, plain: &str, add: &mut Add<'_>) {
                 .iter()
                 .flatten()
                 .filter(|p| names.lookup(p).is_some_and(|e| e.as_symbol() == Some(v.symbol)))
-                .cloned(),
+                .flat_map(|p| super::subject::spellings(p)),
         );
         spellings.sort();
         spellings.dedup();
@@ -99,6 +112,8 @@ fn rates(subject: &Subject, text: &str, plain: &str, add: &mut Add<'_>) {
             add(&name, rate, rate);
         }
     }
+    let lower = text.to_lowercase();
+    let turns = ANGULAR.iter().any(|words| lower.contains(words));
     let velocity = subject.velocity();
     for (r, axis) in AXES.iter().enumerate() {
         let (linear, angular) = (velocity[r], velocity[3 + r]);
@@ -117,6 +132,9 @@ fn rates(subject: &Subject, text: &str, plain: &str, add: &mut Add<'_>) {
             add(&name, linear, linear);
         }
         add(&format!("ω{axis}"), angular, angular);
+        if turns {
+            add(&format!("w{axis}"), angular, angular);
+        }
     }
 }
 

@@ -190,7 +190,7 @@ impl Subject {
     }
 
     /// The rows of a square Jacobian that the arm has by nature: all that do not vanish, or the linear or the angular ones.
-    fn task(&self, part: Part) -> Option<Vec<usize>> {
+    pub fn task(&self, part: Part) -> Option<Vec<usize>> {
         let n = self.joints().len();
         let j = self.geometric_rows(Reference::Tool, self.ground());
         let mut points = Points::new(7);

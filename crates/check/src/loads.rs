@@ -172,7 +172,7 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
     // A moment beside a force in the plane.
     let is_planar = || super::directions::parallel_sum(subject).is_some();
     if load[5].is_zero() && !(load[0].is_zero() && load[1].is_zero()) && is_planar() {
-        let own = ["M", "m", "N"].into_iter().filter(|l| !letters.contains(l) || *l != "M");
+        let own = ["M", "m", "N", "n"].into_iter().filter(|l| !letters.contains(l) || *l != "M");
         if let Some(letter) = own.into_iter().find(|l| adds_to_torque(text, &letters, l)) {
             load[5] = Expr::symbol(letter);
             add(letter, load[5], load[5]);

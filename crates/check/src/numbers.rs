@@ -156,6 +156,11 @@ impl Configuration {
         }
     }
 
+    /// A length, or a rate, that is not known any more.
+    pub fn forget(&mut self, symbol: Symbol) {
+        self.lengths.retain(|l| l.0 != symbol);
+    }
+
     /// The lengths without the joints.
     pub fn lengths_alone(&self) -> Self {
         Configuration { lengths: self.lengths.clone(), ..Configuration::default() }

@@ -55,6 +55,28 @@ struct Printed {
     entries: BTreeMap<(usize, usize), Expr>,
 }
 
+/// How the name of a variable may be spelled: as its table has it, and with a Greek letter for its word.
+pub(super) fn spellings(printed: &str) -> impl Iterator<Item = String> {
+    let plain = plain_name(printed);
+    let stem = plain.trim_end_matches(|c: char| c.is_ascii_digit());
+    let greek = greek::letter(stem).map(|letter| format!("{letter}{}", &plain[stem.len()..]));
+    [printed.to_string()].into_iter().chain(greek)
+}
+
+/// The words that a robot's file has for its joints, which formulas may take for their variables: `shoulder_pan` of
+/// `shoulder_pan_joint`. Shorter names are those of lengths, too.
+fn joint_words(d: &Description) -> Vec<Option<String>> {
+    const LETTERS: usize = 3;
+    let word = |name: &str| {
+        let word = name.strip_suffix("_joint").unwrap_or(name);
+        let letters = word.chars().take_while(|c| c.is_alphabetic()).count();
+        let is_word = letters >= LETTERS && word.chars().all(|c| c.is_alphanumeric() || c == '_');
+        is_word.then(|| word.to_string())
+    };
+    let moving = d.rows.iter().filter(|r| r.variable.is_some());
+    moving.map(|r| r.name.as_deref().and_then(word)).collect()
+}
+
 /// The most rows of a table whose formulas are checked.
 const MAX_ROWS: usize = 30;
 
@@ -62,10 +84,11 @@ impl Subject {
     /// A robot whose lengths have the letters of its convention.
     pub fn new(description: Description) -> Option<Self> {
         let convention = description.convention;
+        let variables = joint_words(&description);
         Subject::printed(
             description,
             [convention.length_x(), convention.length_z()].map(String::from),
-            vec![],
+            variables,
             convention == Convention::Craig,
         )
     }
@@ -308,11 +331,7 @@ impl Subject {
         };
         for (variable, printed) in variables.iter().zip(&self.variables) {
             if let Some(printed) = printed {
-                names = declare(names, printed, variable.symbol.into());
-                let plain = plain_name(printed);
-                let stem = plain.trim_end_matches(|c: char| c.is_ascii_digit());
-                if let Some(letter) = greek::letter(stem) {
-                    let name = format!("{letter}{}", &plain[stem.len()..]);
+                for name in spellings(printed) {
                     names = declare(names, &name, variable.symbol.into());
                 }
             }

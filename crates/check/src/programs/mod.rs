@@ -462,6 +462,12 @@ impl Program<'_> {
                 Some(found) => found,
                 None => (Matrix::column(&pose.translation), Meaning::Position),
             },
+            // A place, and the angle of the hand about axes that are parallel.
+            (4, 1) => {
+                let mut column = Matrix::column(&pose.translation);
+                column.0.push(vec![Some(parallel_sum(self.subject)?)]);
+                (column, Meaning::Position)
+            }
             _ => return None,
         };
         let pieces = self.compare(rows, &matrix)?;

@@ -186,7 +186,9 @@ fn joint_of(name: &str, lexis: &Lexis, subject: &Subject) -> Option<Expr> {
     let known = |name: &str| lexis.names.lookup(name).filter(|e| subject.joints().contains(e));
     if let Some(index) = name.strip_suffix(']').and_then(|n| n.split_once('[')) {
         let k: usize = index.1.parse().ok()?;
-        return subject.joints().get(k).copied().filter(|_| is_vector(index.0));
+        let joint = subject.joints().get(k).copied()?;
+        let is_own = || known(&format!("{}{}", index.0, k + 1)) == Some(joint);
+        return (is_vector(index.0) || is_own()).then_some(joint);
     }
     if let Some(joint) = known(name) {
         return Some(joint);

@@ -93,7 +93,8 @@ impl Walk<'_> {
         let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
         // A rounded angle is where the determinant vanishes as nearly as it is printed.
         let is_rounded = self.source(span).contains('.');
-        let determinant = self.subject.determinant(Part::Any).filter(|_| is_singular(&said) && !is_rounded);
+        let is_told = is_singular(&said) || self.is_in_list_of_singular(statement);
+        let determinant = self.subject.determinant(Part::Any).filter(|_| is_told && !is_rounded);
         match determinant {
             Some(determinant) => {
                 let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
@@ -122,6 +123,27 @@ impl Walk<'_> {
             None => self.taken.push(statement.span.clone()),
         }
         true
+    }
+
+    /// True for an item of a list whose lead says that the arm is singular: `Two families of singular configurations follow.`
+    fn is_in_list_of_singular(&self, statement: &Statement) -> bool {
+        const MOST: usize = 12;
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let is_item = |line: &str| {
+            let mark = line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
+            mark.len() < line.trim_start().len() && mark.starts_with(['.', ')'])
+                || line.trim_start().starts_with("- ")
+                || line.trim_start().starts_with("* ")
+                || line.trim_start().starts_with("\\item")
+        };
+        let mut lines = before.rsplit('\n').take(MOST);
+        if !lines.next().is_some_and(is_item) {
+            return false;
+        }
+        let is_beside =
+            |line: &&str| is_item(line) || line.trim().is_empty() || line.trim_start().starts_with("\\begin");
+        let lead = lines.find(|line| !is_beside(line)).map(str::to_lowercase);
+        lead.is_some_and(|lead| is_singular(&lead))
     }
 
     /// Keeps a statement that only tells a case from being listed.

@@ -1,7 +1,7 @@
 //! A printed matrix, or a product of printed matrices, against the matrix that it should be.
 
 use super::scalars::is_measured;
-use super::words::{REST, ZERO};
+use super::words::puts_to_zero;
 use super::{Assertion, Cell, Pair, Piece, Reference, Walk};
 use crate::facts::{About, Meaning, Remark, ShortRow};
 use crate::jacobians::{frames_told, told_of_jacobian};
@@ -469,7 +469,7 @@ impl Walk<'_> {
             value.starts_with(|c: char| c.is_ascii_digit() || c == 'π') || value.starts_with("\\pi")
         };
         let words = sentence.to_lowercase();
-        let is_at_rest = || ZERO.iter().chain(&REST).any(|w| words.contains(w));
+        let is_at_rest = || puts_to_zero(&words);
         let is_told = sentence.match_indices('=').any(|(at, _)| is_value(at)) || is_at_rest();
         let there = self.at.exactly(wanted, &self.subject).filter(|_| is_told);
         there.filter(|&there| equal(printed, there).is_equal()).unwrap_or(wanted)

@@ -7,6 +7,7 @@ use crate::habits::Places;
 use crate::lexis::read;
 use denavit::random::Random;
 use denavit_reading::document::Statement;
+use denavit_reading::slip::Points;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Node, Symbol};
@@ -112,6 +113,22 @@ impl Walk<'_> {
             && !is_same(left.value(), moved.value())
     }
 
+    /// The entry of the pose that a formula of the joints is: `x_E = l_1 c_1 + l_2 c_12` is a place that inverse formulas know.
+    fn place_of(&self, value: Expr) -> Option<Expr> {
+        let joints = self.subject.joints();
+        if !value.symbols().iter().any(|s| joints.contains(&(*s).into())) {
+            return None;
+        }
+        let mut points = Points::new(59);
+        let at = points.value(value)?;
+        let place = self.subject.pose().translation.0;
+        let r = (0..3).find(|&r| {
+            points.value(place[r]).as_ref() == Some(&at)
+                && denavit_symbolic::equal(place[r], value).is_equal()
+        })?;
+        Some(self.lexis.pose_symbol(r, 3).into())
+    }
+
     /// Keeps a name that a statement defines, with its value, and that with the entries of the pose as symbols.
     pub(super) fn defined_here(
         &mut self,
@@ -131,7 +148,7 @@ impl Walk<'_> {
         let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
         let is_sum = |sum: &Expr| shown.is_some() && denavit_symbolic::equal(value, *sum).is_equal();
         let of_hand = parallel_sum(&self.subject).filter(is_sum);
-        let inverse = shown.unwrap_or(inverse);
+        let inverse = shown.or_else(|| self.place_of(value)).unwrap_or(inverse);
         if let Some(wanted) = of_hand {
             // What the name means is seen: the angle of the hand.
             let mut assertion = self.assertion(statement, About::Equation);

@@ -246,8 +246,8 @@ impl Walk<'_> {
         middle.is_empty()
     }
 
-    /// The pose of the configuration that the document states, where the words before a statement speak of another solution:
-    /// `the elbow-down solution has q2 = 40°`.
+    /// The pose of the configuration that the document states, where the words before a statement speak of another solution,
+    /// `the elbow-down solution has q2 = 40°`, or where joints are sought and no pose is given: then it is that one.
     fn pose_of_other_solution(&self, statement: &Statement) -> Vec<Target> {
         const SOLUTIONS: [&str; 6] = ["solution", "soluzion", "lösung", "solucion", "solución", "solução"];
         const OTHERS: [&str; 18] = [
@@ -277,15 +277,20 @@ impl Walk<'_> {
         }
         let line = line.to_lowercase();
         let says = |words: &[&str]| words.iter().any(|w| line.contains(w));
-        if !says(&SOLUTIONS) || !says(&OTHERS) {
+        let is_other = says(&SOLUTIONS) && says(&OTHERS);
+        if !is_other && !self.in_inverse {
             return vec![];
+        }
+        let mut at = self.at.clone();
+        if !is_other {
+            at.recall_joints();
         }
         let pose = self.subject.pose().matrix();
         let columns = if self.subject.joints().len() > 3 { 0..4 } else { 3..4 };
         let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
         let moves = |e: &Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
         let target = |wanted: Expr| {
-            let printed = self.at.number(wanted, &self.subject)?;
+            let printed = at.number(wanted, &self.subject)?;
             Some(Target::new(&self.subject, wanted, printed, 0.0))
         };
         entries.filter(moves).map(target).collect::<Option<Vec<_>>>().unwrap_or_default()

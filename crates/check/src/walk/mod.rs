@@ -16,6 +16,7 @@ mod rates;
 mod scalars;
 mod told;
 mod units;
+mod worded;
 mod words;
 
 pub(super) use cases::speaks_of_singularity;
@@ -39,6 +40,7 @@ use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashMap;
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -158,6 +160,8 @@ pub(super) struct Walk<'a> {
     pub taken: Vec<Range<usize>>,
     /// Numbers that joints are said to have where a pose is given.
     pub answered: Vec<Answered>,
+    /// Components of the velocity for which joint rates are asked, by their rows.
+    sought: BTreeMap<usize, Expr>,
     /// The pose that is to be reached, as far as the text has given it in numbers, and where it did last.
     goal: Vec<Target>,
     goal_at: usize,
@@ -241,6 +245,7 @@ impl<'a> Walk<'a> {
             sines: vec![],
             taken: vec![],
             answered: vec![],
+            sought: BTreeMap::new(),
             goal: vec![],
             goal_at: 0,
             goals: vec![],

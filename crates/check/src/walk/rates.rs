@@ -1,6 +1,7 @@
 //! Velocities and loads of the hand that a document gives, and the rates of joints in numbers.
 
 use super::matrices::elements;
+use super::words::RATES;
 use super::{Cell, Reference, Scalar, Walk};
 use crate::jacobians::Part as Rows;
 use crate::matrix::Matrix;
@@ -81,8 +82,38 @@ impl Walk<'_> {
         Some(wanted.substitute(|s| load.iter().find(|l| l.0 == s).map(|l| l.1)))
     }
 
+    /// Keeps a component of the velocity that a question asks joint rates for: `Which joint rates give vx = 0.2 m/s, vy = 0?`
+    pub(super) fn is_velocity_sought(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        const MOST: usize = 80;
+        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
+        let (of, value) = (left.value(), right.value());
+        if of.symbols().is_empty() || !value.symbols().is_empty() {
+            return false;
+        }
+        let Some(row) = self.subject.velocity().iter().position(|v| *v == of) else { return false };
+        let rest = self.text.get(statement.span.end..).unwrap_or_default();
+        let is_question = rest.find(['?', '\n']).is_some_and(|at| at < MOST && rest[at..].starts_with('?'));
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let line = before.rsplit('\n').next().unwrap_or_default().to_lowercase();
+        if !is_question || !RATES.iter().any(|words| line.contains(words)) {
+            return false;
+        }
+        for rate in self.subject.rates() {
+            rate.symbols().into_iter().for_each(|s| self.at.forget(s));
+        }
+        self.sought.insert(row, value);
+        self.taken.push(statement.span.clone());
+        true
+    }
+
     /// The velocity of the hand that the document gives as numbers: `v = (0.1, 0, 0)`.
     pub(super) fn velocity_given(&self) -> Option<Matrix> {
+        let sought = |rows: Vec<usize>| -> Option<Vec<Vec<Option<Expr>>>> {
+            rows.iter().map(|r| Some(vec![Some(*self.sought.get(r)?)])).collect()
+        };
+        if let Some(column) = self.subject.task(Rows::Any).and_then(sought) {
+            return Some(Matrix(column));
+        }
         let name = Name { base: "v".into(), ..Name::default() };
         let v = self.lexis.defined(&name)?;
         // `v = (0.1, 0, 0)` is a column.

@@ -128,7 +128,7 @@ impl Walk<'_> {
             self.taken.push(statement.span.clone());
             return true;
         }
-        if !is_case && self.answer(statement, &read) {
+        if !is_case && (self.is_velocity_sought(statement, &read) || self.answer(statement, &read)) {
             return true;
         }
         if !is_case && self.configuration(&spans, &read) {

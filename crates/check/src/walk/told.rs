@@ -2,7 +2,7 @@
 
 use super::cases::tells_goal;
 use super::units::shared;
-use super::words::{JOINTS, LENGTHS, RATES, REST, SAME, VALUES, WORST, ZERO};
+use super::words::{JOINTS, LENGTHS, RATES, SAME, VALUES, WORST, puts_to_zero};
 use super::{Scalar, Walk};
 use crate::lexis::read;
 use denavit::description::{JointKind, Measure, Variable, read_value};
@@ -55,10 +55,11 @@ impl Walk<'_> {
             self.at.recall_joints();
             self.seek(false);
         }
-        if ZERO.iter().chain(&REST).any(|words| lower.contains(words)) {
+        if puts_to_zero(&lower) {
             (0..self.subject.joints().len()).for_each(|joint| self.at.set(joint, Expr::int(0)));
         }
         self.told_row(&joined);
+        self.told_words(&joined);
         self.told_names(&joined);
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
@@ -436,7 +437,7 @@ impl Walk<'_> {
     }
 
     /// Gives a joint or a length a value; false if that is not what is written.
-    fn assign(&mut self, name: &str, value: &str) -> bool {
+    pub(super) fn assign(&mut self, name: &str, value: &str) -> bool {
         let (symbol, plain) = self.named(name);
         let Some(symbol) = symbol else { return false };
         let d = &self.subject.description;

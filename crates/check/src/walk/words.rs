@@ -33,7 +33,7 @@ pub(super) const RATES: [&str; 8] = [
 ];
 
 /// Words that put all joints to zero.
-pub(super) const ZERO: [&str; 44] = [
+const ZERO: [&str; 44] = [
     "alle gelenke auf 0",
     "alle gelenke 0",
     "alle winkel auf 0",
@@ -81,7 +81,7 @@ pub(super) const ZERO: [&str; 44] = [
 ];
 
 /// Words that put the joints to zero to which a sentence gives no value.
-pub(super) const REST: [&str; 22] = [
+const REST: [&str; 22] = [
     "sonst 0",
     "sonst null",
     "übrigen 0",
@@ -149,3 +149,60 @@ pub(super) const WORST: [&str; 10] = [
     "pior caso",
     "najgorsz",
 ];
+
+/// Words for nothing, those for all of the joints, and those for the ones that have no value yet.
+const NOTHING: [&str; 11] =
+    ["zero", "0", "0°", "null", "zéro", "cero", "nulle", "nuls", "nulles", "nulli", "nul"];
+const ALL: [&str; 9] = ["all", "alle", "tous", "toutes", "todos", "todas", "tutti", "tutte", "every"];
+const OTHERS: [&str; 14] = [
+    "others",
+    "other",
+    "rest",
+    "remaining",
+    "übrigen",
+    "anderen",
+    "restlichen",
+    "autres",
+    "altri",
+    "demás",
+    "demais",
+    "outros",
+    "outras",
+    "overige",
+];
+/// How the words for joints begin.
+const JOINT_WORDS: [&str; 13] = [
+    "joint",
+    "gelenk",
+    "angle",
+    "winkel",
+    "articul",
+    "giunt",
+    "junta",
+    "servo",
+    "ax",
+    "achse",
+    "motor",
+    "variab",
+    "scharnier",
+];
+/// So many words stand between them at most.
+const BETWEEN: usize = 5;
+
+/// True if words, in small letters, put all joints to zero, or those to which their sentence gives no value.
+pub(super) fn puts_to_zero(lower: &str) -> bool {
+    if ZERO.iter().chain(&REST).any(|words| lower.contains(words)) {
+        return true;
+    }
+    let words: Vec<&str> = lower.split_whitespace().collect();
+    let begins = |at: usize, all: &[&str]| all.contains(&words[at].trim_matches(['(', ',', ';', '*']));
+    (0..words.len()).filter(|&at| begins(at, &ALL) || begins(at, &OTHERS)).any(|at| {
+        let rest = &words[at + 1..words.len().min(at + 2 + BETWEEN)];
+        let bare = |w: &&str| w.trim_end_matches([',', ';', ':', '.', ')']).to_string();
+        let Some(end) = rest.iter().position(|w| NOTHING.contains(&bare(w).as_str())) else { return false };
+        let between = &rest[..end];
+        let is_word = |w: &&str| w.chars().all(|c| c.is_alphabetic() || c == '\'');
+        let is_joint = between.iter().any(|w| JOINT_WORDS.iter().any(|j| w.starts_with(j)));
+        between.iter().all(is_word) && (is_joint || begins(at, &OTHERS))
+    })
+}

@@ -44,8 +44,15 @@ pub(super) fn joints(
         && !starred
         && !out.has_errors()
         && rows.iter().all(|r| !says_what_moves(r));
-    if is_silent && joints.iter().all(|j| *j == Joint::Fixed) {
-        return by_words(rows, convention.length_z(), given, out);
+    // θ without a number turns, and so do letters like it in other rows: θ, φ.
+    let is_bare =
+        |j: &Joint| matches!(j, Joint::Moves(_, Some(n)) if !n.ends_with(|c: char| c.is_ascii_digit()));
+    if is_silent && joints.iter().all(|j| *j == Joint::Fixed || is_bare(j)) {
+        let is_known = joints.iter().any(|j| *j != Joint::Fixed);
+        joints = by_words(rows, joints, convention.length_z(), given, out);
+        if !is_known {
+            return joints;
+        }
     }
     // The letter of the angles that turn is that of all joints: `t3` along z beside θ1 = `t1`.
     let stems: Vec<String> = joints.iter().filter_map(stem_of_angle).collect();
@@ -114,8 +121,15 @@ fn says_what_moves(row: &ReadRow) -> bool {
 /// The joints of a table whose variables have names of their own (`pan`, `tilt`, `rho`): the one symbol of θ that has no
 /// value turns; where θ is a number, the one along z that stands nowhere else slides. Values are those of a configuration where
 /// the names are numbered as the rows are (`φ1`, `φ2`, or `θ4`, `θ5` of a wrist), where nothing would turn without these names, or
-/// where the line that gives one gives another angle its value, too.
-fn by_words(rows: &[ReadRow], z: &str, given: &Given<'_>, out: &mut Diagnostics) -> Vec<Joint> {
+/// where the line that gives one gives another angle its value, too. Beside joints that are known only angles are looked at.
+fn by_words(
+    rows: &[ReadRow],
+    known: Vec<Joint>,
+    z: &str,
+    given: &Given<'_>,
+    out: &mut Diagnostics,
+) -> Vec<Joint> {
+    let is_known = known.iter().any(|j| *j != Joint::Fixed);
     let is_constant = given.is_constant;
     let turning = || rows.iter().filter(|r| !r.theta.cell.symbols.is_empty());
     // The stem of a name, and how far its number is from that of the row.
@@ -160,9 +174,13 @@ fn by_words(rows: &[ReadRow], z: &str, given: &Given<'_>, out: &mut Diagnostics)
     };
     // Without any angle that may turn, a length is more likely one.
     if !rows.iter().any(|r| open(&r.theta).is_some()) {
-        return vec![Joint::Fixed; rows.len()];
+        return known;
     }
-    rows.iter().map(|r| joint(r).unwrap_or(Joint::Fixed)).collect()
+    let found = |(row, known): (&ReadRow, Joint)| match known {
+        Joint::Fixed if !is_known || !row.theta.cell.symbols.is_empty() => joint(row).unwrap_or(Joint::Fixed),
+        known => known,
+    };
+    rows.iter().zip(known).map(found).collect()
 }
 
 fn joint(row: &ReadRow, z: &str, starred: bool, above: &[Joint], out: &mut Diagnostics) -> Option<Joint> {

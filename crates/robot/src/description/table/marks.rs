@@ -5,13 +5,15 @@ use std::ops::Range;
 /// Longer cells hold no such index.
 const LONGEST: usize = 200;
 
-/// A cell with `q1` for the `q[0]` of programs that count from 0, and for the `q(1)` of those that count from 1.
+/// A cell with `q1` for the `q[0]` of programs that count from 0, and for the `q(1)` of those that count from 1; `h` for the `self.h`
+/// of their objects.
 pub(super) fn with_numbers(cell: &str) -> String {
     if cell.len() > LONGEST {
         return cell.into();
     }
+    let cell = &without_object(cell);
     let mut text = String::with_capacity(cell.len());
-    let mut rest = cell;
+    let mut rest: &str = cell;
     while let Some(at) = rest.find(['[', '(']) {
         let (before, bracket) = rest.split_at(at);
         let letters = before.len() - before.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len();
@@ -31,6 +33,21 @@ pub(super) fn with_numbers(cell: &str) -> String {
         }
     }
     text.push_str(rest);
+    text
+}
+
+/// A cell without `self.`.
+fn without_object(cell: &str) -> String {
+    const OBJECT: &str = "self.";
+    let mut parts = cell.split(OBJECT);
+    let mut text = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        if text.ends_with(|c: char| c.is_alphanumeric() || c == '_') || !part.starts_with(char::is_alphabetic)
+        {
+            text.push_str(OBJECT);
+        }
+        text.push_str(part);
+    }
     text
 }
 
@@ -71,6 +88,8 @@ mod tests {
             ("2*(3)", "2*(3)"),
             ("d_a[2]", "d_a[2]"),
             ("(q(1)", "(q1"),
+            ("self.h + self.q[0]", "h + q1"),
+            ("myself.h", "myself.h"),
         ] {
             assert_eq!(with_numbers(cell), expected, "{cell}");
         }
