@@ -6,11 +6,12 @@ use crate::named::options;
 use crate::trouble::{Kind, Trouble};
 use denavit::description::Description;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, InverseKinematics, Solution, Unprepared};
+use denavit::inverse::{Answer, Branch, Family, Goal, InverseKinematics, InverseModel, Solution, Unprepared};
+use denavit_program::solver::SolverFunction;
 use denavit_report::words::Tongue;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyString};
 use std::collections::HashMap;
 use std::num::NonZero;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -74,13 +75,18 @@ impl Solvers {
     }
 }
 
-fn prepare(d: &Description, given: &[String], goal: &str) -> Result<Prepared, Trouble> {
-    let options = options(d, (!given.is_empty()).then_some(given), goal)?;
-    let solver = InverseKinematics::new(d, &options).map_err(|why| match why {
+/// Why there is no solver.
+pub fn unprepared(why: &Unprepared) -> Trouble {
+    match why {
         Unprepared::Missing(missing) => Trouble::missing(missing),
         Unprepared::Lengths(_) => Trouble::new(Kind::Unsupported, why.to_string()),
         Unprepared::Given(why) => Trouble::new(Kind::Usage, format!("given: {why}")),
-    })?;
+    }
+}
+
+fn prepare(d: &Description, given: &[String], goal: &str) -> Result<Prepared, Trouble> {
+    let options = options(d, (!given.is_empty()).then_some(given), goal)?;
+    let solver = InverseKinematics::new(d, &options).map_err(|why| unprepared(&why))?;
     let names = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
     let limits: Vec<_> = d.rows.iter().filter(|r| r.variable.is_some()).map(|r| r.limits).collect();
     let usual = solver.given.iter().map(|&j| {
@@ -97,16 +103,40 @@ fn prepare(d: &Description, given: &[String], goal: &str) -> Result<Prepared, Tr
     Ok(Prepared { usual, names, solver })
 }
 
+/// The closed form of an arm as a compiled solver, and what of the hand is given to it.
+///
+/// # Errors
+/// If there is none, or a parameter has no value.
+pub fn solver_of(d: &Description, goal: &str) -> Result<(SolverFunction, Goal), Trouble> {
+    let options = options(d, None, goal)?;
+    let model = InverseModel::derive(d, &options).map_err(|why| {
+        let why = format!("no closed form: {why}; `ik` answers in numbers all the same");
+        Trouble::new(Kind::Unsupported, why)
+    })?;
+    let solver = model.solver(d).map_err(Trouble::missing)?;
+    if !solver.given().is_empty() {
+        let why = "the closed form needs values of joints beside the pose: `ik` and `ik_batch` take them as `given`";
+        return Err(Trouble::new(Kind::Unsupported, why));
+    }
+    Ok((solver.function().clone(), options.goal))
+}
+
 /// The poses of an array `(..., 4, 4)`, with its leading shape.
-fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>)> {
-    let (entries, shape) = match array(object, "pose")? {
-        Rows::Double(a) => (a.as_slice().map(<[f64]>::to_vec), a.shape().to_vec()),
+///
+/// # Errors
+/// If it has another shape, or one of them is none.
+pub fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>)> {
+    match array(object, "pose")? {
+        Rows::Double(a) => rigid(a.slice()?, a.shape()),
         Rows::Single(a) => {
-            (a.as_slice().map(|s| s.iter().map(|&x| f64::from(x)).collect()), a.shape().to_vec())
+            let wide: Vec<f64> = a.slice()?.iter().map(|&x| f64::from(x)).collect();
+            rigid(&wide, a.shape())
         }
-    };
-    let entries = entries.map_err(|why| Trouble::new(Kind::Shape, why.to_string()))?;
-    let shape = leading(&shape, &[4, 4], "pose")?;
+    }
+}
+
+fn rigid(entries: &[f64], shape: &[usize]) -> PyResult<(Vec<Transform<f64>>, Vec<usize>)> {
+    let shape = leading(shape, &[4, 4], "pose")?;
     let pose = |(number, m): (usize, &[f64])| {
         let row = |r: usize| [m[4 * r], m[4 * r + 1], m[4 * r + 2], m[4 * r + 3]];
         Transform::from_matrix([row(0), row(1), row(2), row(3)]).map_err(|why| {
@@ -115,7 +145,7 @@ fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>
         })
     };
     let all: Result<Vec<_>, Trouble> = entries.chunks_exact(16).enumerate().map(pose).collect();
-    Ok((all?, shape))
+    Ok((all?, shape.to_vec()))
 }
 
 /// Everything about one pose.
@@ -160,7 +190,7 @@ pub fn solve<'py>(
         (answer, nearest.filter(|n| n.within_limits || !wish.limits), left_out)
     });
     let dict = PyDict::new(py);
-    listed(py, &dict, joints, &answer.solutions)?;
+    listed(py, &dict, joints, answer.solutions.iter())?;
     let families = answer.families.iter().map(|f| family(py, f, joints)).collect::<PyResult<Vec<_>>>()?;
     dict.set_item("families", PyList::new(py, families)?)?;
     dict.set_item("complete", answer.is_complete())?;
@@ -183,24 +213,35 @@ pub fn solve<'py>(
 }
 
 /// Solutions side by side.
-fn listed<'py>(
+fn listed<'a, 'py>(
     py: Python<'py>,
     dict: &Bound<'py, PyDict>,
     joints: usize,
-    solutions: &[Solution],
+    solutions: impl Iterator<Item = &'a Solution> + Clone,
 ) -> PyResult<()> {
-    let q: Vec<f64> = solutions.iter().flat_map(|s| &s.q).copied().collect();
-    dict.set_item("solutions", matrix(py, q, solutions.len(), joints)?)?;
-    let residuals: Vec<f64> = solutions.iter().map(|s| s.residual).collect();
+    let q: Vec<f64> = solutions.clone().flat_map(|s| &s.q).copied().collect();
+    let count = solutions.clone().count();
+    dict.set_item("solutions", matrix(py, q, count, joints)?)?;
+    let residuals: Vec<f64> = solutions.clone().map(|s| s.residual).collect();
     dict.set_item("residuals", residuals.into_pyarray(py))?;
-    dict.set_item("branches", solutions.iter().map(|s| s.branch.to_string()).collect::<Vec<_>>())?;
-    let multiplicities: Vec<i64> = solutions.iter().map(|s| i64::from(s.multiplicity)).collect();
+    // A branch of many solutions is one text.
+    let mut known: HashMap<&Branch, Bound<'py, PyString>> = HashMap::new();
+    let branches = solutions.clone().map(|s| {
+        let text = known.entry(&s.branch).or_insert_with(|| PyString::new(py, &s.branch.to_string()));
+        text.clone()
+    });
+    dict.set_item("branches", PyList::new(py, branches.collect::<Vec<_>>())?)?;
+    let multiplicities: Vec<i64> = solutions.clone().map(|s| i64::from(s.multiplicity)).collect();
     dict.set_item("multiplicities", multiplicities.into_pyarray(py))?;
-    let within: Vec<bool> = solutions.iter().map(|s| s.within_limits).collect();
+    let within: Vec<bool> = solutions.map(|s| s.within_limits).collect();
     dict.set_item("within_limits", PyArray1::from_vec(py, within))
 }
 
-fn matrix<'py>(
+/// A matrix of entries that stand row by row.
+///
+/// # Errors
+/// If there are not as many.
+pub fn matrix<'py>(
     py: Python<'py>,
     entries: Vec<f64>,
     rows: usize,
@@ -251,15 +292,15 @@ pub fn solve_all<'py>(
         (answers, left_out)
     });
     let dict = PyDict::new(py);
-    let solutions: Vec<Solution> = answers.iter().flat_map(|a| &a.solutions).cloned().collect();
-    listed(py, &dict, solver.robot.joints, &solutions)?;
+    listed(py, &dict, solver.robot.joints, answers.iter().flat_map(|a| &a.solutions))?;
     let counts: Vec<i64> =
         answers.iter().map(|a| i64::try_from(a.solutions.len()).unwrap_or(i64::MAX)).collect();
     dict.set_item("counts", counts.into_pyarray(py))?;
     let complete: Vec<bool> = answers.iter().map(Answer::is_complete).collect();
     dict.set_item("complete", PyArray1::from_vec(py, complete))?;
     let both = answers.iter().zip(&left_out);
-    let status: Vec<&str> = both.map(|(a, &n)| denavit_wire::inverse::status_within(a, n)).collect();
+    let status: Vec<Bound<'py, PyString>> =
+        both.map(|(a, &n)| PyString::intern(py, denavit_wire::inverse::status_within(a, n))).collect();
     dict.set_item("status", status)?;
     let left_out: Vec<usize> = left_out.into_iter().map(Option::unwrap_or_default).collect();
     dict.set_item("left_out", left_out)?;

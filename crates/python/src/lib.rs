@@ -4,10 +4,14 @@
 //! its own, which ends with it. The package's own Python gives this its arguments, words and classes.
 
 mod arrays;
+mod compiled;
 mod formulas;
 mod inverse;
 mod loading;
+mod motion;
 mod named;
+mod programs;
+mod ready;
 mod robot;
 mod trouble;
 
@@ -17,6 +21,9 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _denavit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::Core>()?;
+    module.add_class::<compiled::Compiled>()?;
+    module.add_class::<compiled::CompiledIk>()?;
+    module.add_class::<motion::Moving>()?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(robot::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::check, module)?)

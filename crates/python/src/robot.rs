@@ -1,16 +1,19 @@
 //! A robot: the text of its file, and what was compiled of it.
 
 use crate::arrays::Call;
+use crate::compiled::{Compiled, CompiledIk};
 use crate::formulas;
 use crate::inverse::{self, Solvers};
 use crate::loading::{self, Facts, Joint, Request};
+use crate::motion::{self, Along, Manner, Way};
 use crate::named::{body, reference};
+use crate::programs::{self, Programs, VECTORS};
+use crate::ready::Ready;
 use crate::trouble::{Found, Kind, Trouble, apart, said};
 use denavit::description::{Description, SameChain, prove_same_chain};
-use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
-use denavit::forward::{Reference, frames_program, pose_program};
+use denavit::forward::{frames_program, pose_program};
 use denavit::velocity::{Viewpoint, jacobian_program};
-use denavit_program::{Function, Program};
+use denavit_program::Program;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
@@ -23,9 +26,9 @@ pub struct Core {
     facts: Facts,
     /// What it was read from, where there is more of it.
     request: Option<Request>,
-    pose: OnceLock<Arc<Function>>,
+    pose: OnceLock<Arc<Ready>>,
     /// Other functions, by what they compute.
-    functions: Mutex<HashMap<String, Arc<Function>>>,
+    functions: Mutex<HashMap<String, Arc<Ready>>>,
     solvers: Solvers,
 }
 
@@ -36,8 +39,9 @@ pub fn catalogue() -> (Vec<&'static str>, Vec<&'static str>) {
 }
 
 /// A program at the robot's own values.
-fn compiled(d: &Description, program: &Program) -> Result<Arc<Function>, Trouble> {
-    program.compile_with(|s| d.value(s)).map(Arc::new).map_err(Trouble::missing)
+fn compiled(d: &Description, program: &Program) -> Result<Arc<Ready>, Trouble> {
+    let function = program.compile_with(|s| d.value(s)).map_err(Trouble::missing)?;
+    Ok(Arc::new(Ready::new(function)))
 }
 
 impl Core {
@@ -74,7 +78,7 @@ impl Core {
         py: Python<'_>,
         key: String,
         program: impl FnOnce(&Description) -> Result<Program, Trouble> + Send,
-    ) -> Result<Arc<Function>, Trouble> {
+    ) -> Result<Arc<Ready>, Trouble> {
         let known = || self.functions.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(function) = known().get(&key) {
             return Ok(function.clone());
@@ -82,25 +86,6 @@ impl Core {
         let made = self.derive(py, |d| compiled(d, &program(d)?))?;
         Ok(known().entry(key).or_insert(made).clone())
     }
-
-    fn joint_count(&self) -> usize {
-        self.facts.joints.len()
-    }
-}
-
-/// The dynamic function of a name.
-fn dynamic(name: &str) -> Option<(DynamicFunction, usize)> {
-    Some(match name {
-        "torque" => (DynamicFunction::Torque, 3),
-        "inertia" => (DynamicFunction::Inertia, 1),
-        "bias" => (DynamicFunction::Bias, 2),
-        "gravity" => (DynamicFunction::Gravity, 1),
-        "acceleration" => (DynamicFunction::Acceleration, 3),
-        "energy" => (DynamicFunction::Energy, 2),
-        "torque with derivatives" => (DynamicFunction::TorqueWithDerivatives, 3),
-        "acceleration with derivatives" => (DynamicFunction::AccelerationWithDerivatives, 3),
-        _ => return None,
-    })
 }
 
 #[pymethods]
@@ -266,8 +251,8 @@ impl Core {
                 self.pose.get_or_init(|| made)
             }
         };
-        let call = Call { function, variables: self.joint_count(), tail: &[4, 4], what: "q", out, threads };
-        call.of(q)
+        let call = Call { function, n: self.facts.joints.len(), tail: &[4, 4], out, threads };
+        call.of(q.py(), &[("q", q)])
     }
 
     /// Poses of frames.
@@ -282,19 +267,13 @@ impl Core {
         let function = self.function(q.py(), format!("frames {of:?}"), |d| {
             let frames = match of {
                 Some(words) => words.iter().map(|w| reference(d, w)).collect::<Result<Vec<_>, _>>()?,
-                None => (0..=d.rows.len()).map(Reference::Frame).chain([Reference::Tool]).collect(),
+                None => programs::frames(d),
             };
             Ok(frames_program(d, &frames))
         })?;
-        let call = Call {
-            function: &function,
-            variables: self.joint_count(),
-            tail: &[count, 4, 4],
-            what: "q",
-            out,
-            threads,
-        };
-        call.of(q)
+        let n = self.facts.joints.len();
+        let call = Call { function: &function, n, tail: &[count, 4, 4], out, threads };
+        call.of(q.py(), &[("q", q)])
     }
 
     /// Geometric Jacobians.
@@ -314,45 +293,37 @@ impl Core {
             }
             Ok(jacobian_program(d, &view))
         })?;
-        let n = self.joint_count();
-        let call = Call { function: &function, variables: n, tail: &[6, n], what: "q", out, threads };
-        call.of(q)
+        let n = self.facts.joints.len();
+        let call = Call { function: &function, n, tail: &[6, n], out, threads };
+        call.of(q.py(), &[("q", q)])
     }
 
-    /// A dynamic function; the vectors that it reads stand side by side in the rows.
+    /// A dynamic function of the vectors that it reads.
     fn dynamics<'py>(
         &self,
+        py: Python<'py>,
         name: &str,
-        state: &Bound<'py, PyAny>,
+        vectors: Vec<Bound<'py, PyAny>>,
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (wanted, reads) =
-            dynamic(name).ok_or_else(|| Trouble::new(Kind::Usage, format!("no function `{name}`")))?;
-        if !self.facts.has_masses {
-            let why = format!(
-                "{} says nothing of masses: a URDF does, or mass, com and inertia in a robot file or in rows",
-                self.facts.name
-            );
-            return Err(Trouble::new(Kind::NoMasses, why).into());
-        }
-        let function = self.function(state.py(), format!("dynamics {name}"), |d| {
-            let programs = DynamicPrograms::new(d, Masses::Numbers);
-            let programs = programs.map_err(|why| Trouble::new(Kind::NoMasses, why.to_string()))?;
-            let made = programs.program(wanted);
-            Ok(made.map_err(|why| Trouble::new(Kind::Unsupported, why.to_string()))?.program)
-        })?;
-        let n = self.joint_count();
-        let tail: &[usize] = match wanted {
-            DynamicFunction::Inertia => &[n, n],
-            DynamicFunction::Energy => &[2],
-            DynamicFunction::TorqueWithDerivatives | DynamicFunction::AccelerationWithDerivatives => {
-                &[n, 3 * n + 1]
-            }
-            _ => &[n],
-        };
-        let call =
-            Call { function: &function, variables: reads * n, tail, what: "the state", out: None, threads };
-        call.of(state)
+        let wanted = programs::dynamic(name)
+            .ok_or_else(|| Trouble::new(Kind::Usage, format!("no function `{name}`")))?;
+        let function = self.function(py, format!("dynamics {name}"), |d| Programs::new(d).dynamic(wanted))?;
+        let n = self.facts.joints.len();
+        let tail = programs::shape(wanted, n);
+        let call = Call { function: &function, n, tail: &tail, out: None, threads };
+        let named = programs::reads(wanted).iter().map(|&v| VECTORS[v]);
+        call.of(py, &named.zip(&vectors).collect::<Vec<_>>())
+    }
+
+    /// Functions as one compiled program.
+    fn compile(&self, py: Python<'_>, functions: Vec<String>) -> PyResult<Compiled> {
+        Ok(self.derive(py, |d| Compiled::of(d, &functions))?)
+    }
+
+    /// The closed form of the inverse kinematics as a compiled solver.
+    fn compile_ik(&self, py: Python<'_>, goal: &str) -> PyResult<CompiledIk> {
+        Ok(self.derive(py, |d| CompiledIk::of(d, goal))?)
     }
 
     /// All configurations for a pose.
@@ -384,6 +355,31 @@ impl Core {
     ) -> PyResult<Bound<'py, PyDict>> {
         let wish = inverse::Wish { near: None, limits, one: false, given };
         inverse::solve_all(&self.facts.text, &self.solvers, py, poses, &wish, goal, threads)
+    }
+
+    /// A path through configurations.
+    fn path<'py>(
+        &self,
+        py: Python<'py>,
+        points: Vec<Vec<f64>>,
+        manner: Manner,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let plan = self.derive(py, |d| motion::plan(d, Way::Joints(points), &manner))?;
+        plan.into_dict(py, self.facts.joints.len())
+    }
+
+    /// A path of the hand through poses.
+    fn follow<'py>(
+        &self,
+        py: Python<'py>,
+        poses: &Bound<'py, PyAny>,
+        along: Option<Vec<Along>>,
+        start: Option<Vec<f64>>,
+        manner: Manner,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let way = motion::way_of_poses(poses, along, start)?;
+        let plan = self.derive(py, |d| motion::plan(d, way, &manner))?;
+        plan.into_dict(py, self.facts.joints.len())
     }
 
     /// The forward model in formulas.

@@ -10,6 +10,7 @@ import_exception!(denavit._errors, ChainError);
 import_exception!(denavit._errors, DescriptionError);
 import_exception!(denavit._errors, FileError);
 import_exception!(denavit._errors, MissingValueError);
+import_exception!(denavit._errors, MotionError);
 import_exception!(denavit._errors, NoMassesError);
 import_exception!(denavit._errors, PoseError);
 import_exception!(denavit._errors, ShapeError);
@@ -52,6 +53,8 @@ pub enum Kind {
     File,
     /// A parameter has no value.
     Missing,
+    /// There is no such motion.
+    Motion,
     /// The description says nothing of masses.
     NoMasses,
     /// A matrix is no pose.
@@ -101,6 +104,7 @@ impl From<Trouble> for PyErr {
             Kind::Description => DescriptionError::new_err(arguments),
             Kind::File => FileError::new_err(arguments),
             Kind::Missing => MissingValueError::new_err(arguments),
+            Kind::Motion => MotionError::new_err(arguments),
             Kind::NoMasses => NoMassesError::new_err(arguments),
             Kind::Pose => PoseError::new_err(arguments),
             Kind::Shape => ShapeError::new_err(arguments),

@@ -14,7 +14,9 @@ ARMS = ["ur5", "puma560", "staubli-rx90", "kuka-kr6-r900-2", "fanuc-crx10ia-l", 
 
 @pytest.mark.parametrize("name", ARMS)
 def test_solutions_are_those_of_peers(name):
-    one = next((o for o in peers("ik.json")["robots"].values() if o["robot"] == name and not o["given"]), None)
+    one = next(
+        (o for o in peers("ik.json")["robots"].values() if o["robot"] == name and not o["given"]), None
+    )
     if one is None:
         pytest.skip("no peer solves it")
     robot = Robot(name)

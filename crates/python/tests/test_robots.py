@@ -3,6 +3,7 @@
 import copy
 import doctest
 import importlib
+import inspect
 import json
 import math
 import pickle
@@ -240,7 +241,7 @@ def test_everything_public_is_described():
     for name in denavit.__all__:
         what = getattr(denavit, name)
         assert isinstance(what, str) or what.__doc__
-    for name, what in vars(Robot).items():
+    for name, what in inspect.getmembers(Robot):
         if not name.startswith("_"):
             assert what.__doc__, name
 

@@ -41,7 +41,25 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/load", LOAD, &[SYMBOLIC, ROBOT]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
-    ("crates/python", "denavit-python", BELOW_DOORS),
+    (
+        "crates/python",
+        "denavit-python",
+        &[
+            SYMBOLIC,
+            READING,
+            PROGRAM,
+            EMIT,
+            ELIMINATION,
+            ROBOT,
+            CHECK,
+            CERTIFICATE,
+            GENERATE,
+            REPORT,
+            WIRE,
+            LOAD,
+            JIT,
+        ],
+    ),
     // It runs the program.
     ("xtask", "xtask", &[]),
 ];

@@ -13,8 +13,8 @@ True
 Angles are radians, lengths metres; poses are 4×4 matrices of the tool in the base.
 """
 
-from ._answers import Answer, Answers, Family, Obstacle
-from ._denavit import __version__
+from ._answers import Answer, Answers, Branches, Family, Obstacle
+from ._denavit import Compiled, CompiledIk, __version__
 from ._documents import Checked, Claim, check
 from ._errors import (
     ChainError,
@@ -23,6 +23,7 @@ from ._errors import (
     FileError,
     Finding,
     MissingValueError,
+    MotionError,
     NoMassesError,
     PoseError,
     ShapeError,
@@ -30,6 +31,7 @@ from ._errors import (
     UnsupportedError,
     UsageError,
 )
+from ._motion import Clearance, Deviation, Event, Motion, Start, State
 from ._robot import Joint, Robot, catalogue
 from ._slopes import AccelerationDerivatives, TorqueDerivatives
 
@@ -37,21 +39,31 @@ __all__ = [
     "AccelerationDerivatives",
     "Answer",
     "Answers",
+    "Branches",
     "ChainError",
     "Checked",
     "Claim",
+    "Clearance",
+    "Compiled",
+    "CompiledIk",
     "DenavitError",
     "DescriptionError",
+    "Deviation",
+    "Event",
     "Family",
     "FileError",
     "Finding",
     "Joint",
     "MissingValueError",
+    "Motion",
+    "MotionError",
     "NoMassesError",
     "Obstacle",
     "PoseError",
     "Robot",
     "ShapeError",
+    "Start",
+    "State",
     "TorqueDerivatives",
     "UnknownRobotError",
     "UnsupportedError",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Optional, Union, overload
+from typing import Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -191,6 +191,20 @@ class Answers:
     def __repr__(self) -> str:
         solved = self.status.count("solved")
         return f"<Answers: {len(self)} poses, {solved} solved, {len(self.solutions)} solutions>"
+
+
+class Branches(NamedTuple):
+    """The branches of a closed form as they are computed: what `CompiledIk` gives.
+
+    Poses that are not ``regular`` are worth a look by `Robot.ik`: families, coinciding solutions, and what rounding hides.
+    """
+
+    #: Configurations ``(..., most, n)``, NaN behind the last one of a pose.
+    solutions: Floats
+    #: How many each pose has ``(...)``.
+    counts: NDArray[np.int64]
+    #: Whether all branches of a pose are plain: none undetermined, double, or almost a solution ``(...)``.
+    regular: NDArray[np.bool_]
 
 
 def answer_of(found: dict[str, Any]) -> Answer:

@@ -76,9 +76,7 @@ def read_document(document: Union[str, os.PathLike[str]], name: str) -> tuple[st
 
 def checked_of(text: str) -> Checked:
     data = json.loads(text)
-    claims = [
-        Claim(c["about"], c["claim"], c["verdict"], c["at"]["line"], c) for c in data["claims"]
-    ]
+    claims = [Claim(c["about"], c["claim"], c["verdict"], c["at"]["line"], c) for c in data["claims"]]
     return Checked(claims, data["tally"], data)
 
 

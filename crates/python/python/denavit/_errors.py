@@ -70,6 +70,10 @@ class MissingValueError(DenavitError, ValueError):
     """A parameter has no value where a number is needed."""
 
 
+class MotionError(DenavitError, ValueError):
+    """There is no such motion: its start is out of reach, a way-point outside of the limits, or it is asked to be too fast."""
+
+
 class NoMassesError(DenavitError, ValueError):
     """Dynamics of a robot that says nothing of masses."""
 

@@ -15,7 +15,9 @@ def write(folder: Path, files: Mapping[str, str], overwrite: bool) -> None:
         for path, text in targets.items():
             there = path.exists() and (path.is_dir() or path.read_text("utf-8", "replace") != text)
             if there and (path.is_dir() or not overwrite):
-                raise FileError(f"{path} is there already, with other contents; overwrite=True replaces files")
+                raise FileError(
+                    f"{path} is there already, with other contents; overwrite=True replaces files"
+                )
         for path, text in targets.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(text.encode("utf-8"))

@@ -51,6 +51,16 @@ def parts(found: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     return found[..., 0], cut[0], cut[1], cut[2]
 
 
+def torque_derivatives(found: Floats) -> TorqueDerivatives:
+    """Torques with their derivatives from what stands side by side."""
+    return TorqueDerivatives(*parts(found))
+
+
+def acceleration_derivatives(found: Floats) -> AccelerationDerivatives:
+    """Accelerations with their derivatives from what stands side by side."""
+    return AccelerationDerivatives(*parts(found))
+
+
 def pose_slopes(pose: Floats, jacobian: Floats) -> Floats:
     """∂T/∂q of poses T ``(..., 4, 4)`` with geometric Jacobians ``(..., 6, n)`` along the base: ``(..., 4, 4, n)``."""
     v, w = jacobian[..., :3, :], jacobian[..., 3:, :]

@@ -22,7 +22,7 @@ impl JointState {
 }
 
 /// A motion of all joints from the time 0 to its duration.
-pub trait Trajectory {
+pub trait Trajectory: Send + Sync {
     /// The number of joints.
     fn dof(&self) -> usize;
 

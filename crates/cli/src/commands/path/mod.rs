@@ -14,7 +14,6 @@ use crate::load;
 use crate::terminal::note;
 use denavit::Robot;
 use denavit_wire::path::Path;
-use samples::Sampled;
 use std::io::Write;
 
 /// Plans a path and prints it.
@@ -29,14 +28,15 @@ pub fn run(arguments: &PathArguments) -> Result<(), Failure> {
     let wish = request::read(&description, &robot, arguments)?;
     let limits = limits::read(&description, &around, arguments)?;
     let planned = motion::plan(&description, &robot, wish, &limits, arguments)?;
-    let sampled = Sampled::new(&description, &robot, &planned, arguments.dt)?;
+    let sampled = planned.sampled(&description, &robot, arguments.dt);
+    let sampled = sampled.map_err(|why| Failure::Usage(format!("--dt: {why}")))?;
     let format = if arguments.json { PathFormat::Json } else { arguments.format };
     let text = match format {
         PathFormat::Text => report::text(&description, &planned, &sampled),
-        PathFormat::Csv => sampled.csv(&description),
-        PathFormat::Ndjson => sampled.ndjson(),
+        PathFormat::Csv => samples::csv(&sampled, &description),
+        PathFormat::Ndjson => samples::ndjson(&sampled),
         PathFormat::Json => {
-            let path = Path::of(&description, &planned, sampled.wire());
+            let path = Path::of(&description, &planned, samples::samples(&sampled));
             format!("{}\n", denavit_wire::text(&path))
         }
     };

@@ -1,10 +1,9 @@
 //! Joints, velocities and manipulability over time, as SVG.
 
-use super::samples::{Sample, Sampled};
 use crate::terminal::words;
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::EventKind;
-use denavit::motion::plan::Planned;
+use denavit::motion::plan::{Planned, Sample, Sampled};
 use denavit_report::figure::drawing::Label;
 use denavit_report::figure::plot::{Curve, Panel, curves};
 use denavit_report::figure::svg::{Palette, svg};
@@ -51,6 +50,7 @@ pub fn picture(d: &Description, planned: &Planned, sampled: &Sampled) -> String 
     let across = Label::symbol("t", "").and(Label::words(" / s"));
     svg(&curves(&title, &across, &panels, &singular_times(planned, sampled)), Palette::File, "path")
 }
+
 /// When a singular configuration is passed: the sample nearest to it.
 fn singular_times(planned: &Planned, sampled: &Sampled) -> Vec<f64> {
     let events = planned.followed.iter().flat_map(|f| &f.events);

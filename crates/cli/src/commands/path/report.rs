@@ -1,10 +1,9 @@
 //! The path in words: what was met, what else is possible, how it was timed.
 
-use super::samples::Sampled;
 use crate::terminal::{Align, HEADING, decimals, styled, table, words};
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::{Alternative, Event};
-use denavit::motion::plan::Planned;
+use denavit::motion::plan::{Planned, Sampled};
 use denavit::quantity::reading;
 
 /// Rows of the table.

@@ -45,7 +45,7 @@ impl PathPoint {
 }
 
 /// A path of all joints.
-pub trait JointPath {
+pub trait JointPath: Send + Sync {
     /// The number of joints.
     fn dof(&self) -> usize;
 

@@ -12,10 +12,12 @@ mod error;
 mod hand;
 mod joints;
 mod known;
+mod sampled;
 mod timed;
 
 pub use error::PlanError;
 pub use known::KnownLimits;
+pub use sampled::{Sample, Sampled};
 
 use super::error::{joints as one_a_joint, positive};
 use super::follow::{self, Alternative, Followed, Follower};

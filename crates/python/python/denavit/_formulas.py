@@ -1,0 +1,110 @@
+"""What is derived of a robot: formulas, explanations, verdicts, code, documents."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Optional, Union
+
+from numpy.typing import ArrayLike
+
+from ._denavit import Core
+from ._documents import Checked, checked_of, read_document
+from ._files import write
+from ._numbers import vector
+
+PathLike = Union[str, os.PathLike[str]]
+
+
+class Formulas:
+    """The methods of `Robot` that derive."""
+
+    __slots__ = ()
+    _core: Core
+
+    def derive(
+        self,
+        format: str = "text",
+        *,
+        frame: Union[str, int] = "base",
+        of: Union[str, int] = "tool",
+        only: str = "all",
+    ) -> str:
+        """Link transforms, the simplified pose of ``of`` in ``frame``, and the shortest algorithm for it, proved.
+
+        ``format`` is ``text``, ``latex``, ``typst``, ``markdown``, ``html`` or ``json``; ``only`` what the algorithm
+        computes: ``all``, or a list of ``position``, ``orientation``, ``x``, ``y``, ``z``.
+
+        >>> from denavit import Robot
+        >>> "t14 = " in Robot("ur5").derive()
+        True
+        """
+        return self._core.derive_text(format, str(frame), str(of), only)
+
+    def ik_explain(
+        self,
+        format: str = "text",
+        *,
+        given: Optional[Sequence[Union[str, int]]] = None,
+        goal: str = "pose",
+    ) -> str:
+        """How the closed form of the inverse kinematics is derived, step by step, each step proved.
+
+        Formats as in `derive`. Raises `UnsupportedError` with the reason if there is no closed form.
+        """
+        words = None if given is None else [str(joint) for joint in given]
+        return self._core.ik_explain(format, words, goal)
+
+    def jacobian_explain(self, format: str = "text", *, of: Union[str, int] = "tool") -> str:
+        """The Jacobian in the frame where it is shortest, its determinant in factors, and why the arm is singular where one
+        is zero. Formats as in `derive`.
+        """
+        return self._core.jacobian_explain(format, str(of))
+
+    def dynamics_explain(self, format: str = "text") -> str:
+        """Base parameters and torques as formulas, step by step; symbols of Khalil and Dombre's names where the robot says
+        nothing of masses. Formats as in `derive`.
+        """
+        return self._core.dynamics_explain(format)
+
+    def check(self, document: PathLike, *, name: str = "document.md") -> Checked:
+        """The claims of a document about this robot, each with its verdict: see `denavit.check`."""
+        return checked_of(self._core.check(*read_document(document, name)))
+
+    def generate(
+        self,
+        language: str,
+        functions: Sequence[str] = ("fk", "jacobian", "ik"),
+        *,
+        folder: Optional[PathLike] = None,
+        name: Optional[str] = None,
+        goal: str = "pose",
+        overwrite: bool = False,
+    ) -> dict[str, str]:
+        """Source code that builds and tests itself: texts by the path of their file.
+
+        Written to ``folder`` where one is given; files that are there already with other contents stay, all of them, unless
+        ``overwrite`` says otherwise.
+
+        >>> from denavit import Robot
+        >>> sorted(Robot("ur5").generate("c", ["fk"], name="ur5"))[:2]
+        ['Makefile', 'test_ur5.c']
+
+        Raises `UsageError` if there is no such language or function, `UnsupportedError` if there is no such code, `FileError`
+        if a file stands in the way or cannot be written.
+        """
+        if isinstance(functions, str):
+            functions = [part.strip() for part in functions.split(",")]
+        files = dict(self._core.generate(language, list(functions), name, goal)[0])
+        if folder is not None:
+            write(Path(folder), files, overwrite)
+        return files
+
+    def report(self, format: str = "html", *, language: str = "en") -> str:
+        """What a lab report would contain, as one page of ``html``, or as ``latex`` or ``typst``; in ``en`` or ``fr``."""
+        return self._core.report(format, language)
+
+    def figure(self, q: Optional[ArrayLike] = None, *, scheme: bool = False) -> str:
+        """The arm with its frames and lengths as SVG, at ``q`` or where it shows well; ``scheme`` draws the line diagram."""
+        return self._core.figure(vector(q, "q"), scheme)

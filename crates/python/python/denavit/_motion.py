@@ -1,0 +1,316 @@
+"""Motions: paths of the joints and of the hand, followed and timed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._denavit import Core, Moving
+from ._errors import ShapeError, UsageError
+from ._numbers import vector
+from ._poses import matrix_of
+
+Floats = NDArray[np.float64]
+Limits = Optional[Union[float, ArrayLike]]
+
+
+class State(NamedTuple):
+    """Joints at times, ``(..., n)`` each: rad or m, per second, per second squared."""
+
+    q: Floats
+    qd: Floats
+    qdd: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """Something that a path of the hand meets."""
+
+    #: Where: the part of the way, from 0 to 1.
+    s: float
+    #: ``singular``, ``limit``, ``within_limits`` or ``end``.
+    kind: str
+    #: In words.
+    words: str
+    #: The joints there, ``(n,)``.
+    q: Floats
+    #: The joint that leaves its limits or enters them again, from 1.
+    joint: Optional[int]
+    #: The limit.
+    limit: Optional[float]
+    #: The factor of the Jacobian's determinant that is 0, where it is one that is known.
+    factor: Optional[str]
+    #: How the axes lie, where that is known.
+    why: Optional[str]
+    #: Whether the factor changes its sign.
+    crossed: Optional[bool]
+    #: Whether the hand could go on in another branch, where the path ends.
+    reachable: Optional[bool]
+
+
+class Clearance(NamedTuple):
+    """How near a path comes to a singular configuration."""
+
+    #: Where it is nearest, from 0 to 1.
+    s: float
+    #: The joints there, ``(n,)``.
+    q: Floats
+    #: The smallest singular value of the Jacobian there, lengths by the reach.
+    smallest: float
+
+
+class Deviation(NamedTuple):
+    """How far the hand leaves its path at most."""
+
+    #: Metres.
+    distance: float
+    #: Radians.
+    angle: float
+
+
+class Start(NamedTuple):
+    """A configuration in which a path can start, and what comes of it."""
+
+    #: The joints, ``(n,)``.
+    q: Floats
+    #: Its branch: ``shoulder+ elbow−``.
+    branch: str
+    #: The part of the path that it follows, 1 if all.
+    reached: float
+    #: How many singular configurations are on the way.
+    singular: int
+    #: Whether it stays within the limits.
+    within_limits: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion of all joints, in samples; `at` gives it at other times."""
+
+    #: Seconds, ``(k,)``.
+    t: Floats
+    #: Joints, ``(k, n)``, radians and metres.
+    q: Floats
+    #: Their velocities, ``(k, n)``.
+    qd: Floats
+    #: Their accelerations, ``(k, n)``.
+    qdd: Floats
+    #: Poses of the tool, ``(k, 4, 4)``.
+    poses: Floats
+    #: √det(J Jᵀ), lengths by the arm's size, ``(k,)``.
+    manipulability: Floats
+    #: Seconds.
+    duration: float
+    #: What path it is, in words.
+    course: str
+    #: How it was timed, in words.
+    timing: str
+    #: Whether it goes to the end of the path, within the limits.
+    ok: bool
+    #: The same in words.
+    verdict: str
+    #: The part of the path that could be followed, 1 if all.
+    reached: float
+    #: How far the hand leaves its path between samples, where it has one.
+    deviation: Optional[Deviation]
+    #: Whether all singular configurations on the way are among `events`, where the hand has a path.
+    certified: Optional[bool]
+    #: How near the path comes to a singular configuration, where no factors tell.
+    clearance: Optional[Clearance]
+    #: What a path of the hand meets, in order.
+    events: list[Event]
+    #: Configurations in which a path of the hand can start, where that was asked for or matters.
+    starts: list[Start]
+    _moving: Moving = field(repr=False)
+
+    def at(self, t: ArrayLike) -> State:
+        """The state at times ``t``, seconds, of any shape ``(...)``: ``(..., n)`` each; at rest before and behind the motion."""
+        times = np.asarray(t, dtype=np.float64)
+        found = self._moving.at(times.ravel().tolist())
+        return State(*(one.reshape(*times.shape, self.q.shape[1]) for one in found))
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        return f"<Motion: {self.course}, {self.duration:.4g} s, {len(self)} samples; {self.verdict}>"
+
+
+class Motions:
+    """The methods of `Robot` that move it."""
+
+    __slots__ = ()
+    _core: Core
+
+    def path(
+        self,
+        points: ArrayLike,
+        *,
+        velocity: Limits = None,
+        acceleration: Limits = None,
+        jerk: Limits = None,
+        torque: Limits = None,
+        duration: Optional[float] = None,
+        dt: Optional[float] = None,
+        law: Optional[str] = None,
+        blend: Optional[float] = None,
+    ) -> Motion:
+        """A path of the joints through configurations ``(m, n)``, timed as fast as the limits allow.
+
+        Parameters
+        ----------
+        points
+            Two configurations for a move, more for a smooth curve through them.
+        velocity, acceleration, jerk
+            The largest of each joint: one number for all or one each, ``(n,)``, rad/s or m/s and so on; velocities and
+            accelerations of the robot's own file where they are not given. Without accelerations the law is a quintic.
+        torque
+            The largest torque of each drive, N·m (N for slides), of a robot with masses; needs velocities.
+        duration
+            Seconds for the whole path, no less than the limits allow.
+        dt
+            Seconds between samples; two hundred samples at most otherwise.
+        law
+            Of a move between two configurations: ``cubic``, ``quintic``, ``trapezoidal`` or ``jerk-limited``.
+        blend
+            Go straight between configurations and round each corner at this distance, radians and metres.
+
+        Raises `MotionError` if there is no such motion, `UsageError` if the options do not go together, `NoMassesError` if
+        torques are limited of a robot that says nothing of masses.
+
+        >>> from denavit import Robot
+        >>> motion = Robot("ur5").path([[0.0] * 6, [1.0] * 6], velocity=2.0, acceleration=4.0, law="trapezoidal")
+        >>> motion.duration
+        1.0
+        >>> motion.at(0.5).qd.round(9).tolist()
+        [2.0, 2.0, 2.0, 2.0, 2.0, 2.0]
+        """
+        through = np.asarray(points, dtype=np.float64)
+        n = self._joints()
+        if through.ndim != 2 or through.shape[1] != n or len(through) < 2:
+            raise ShapeError(f"points has the shape {through.shape}; (m, {n}) with two or more is needed")
+        if not np.all(np.isfinite(through)):
+            raise ShapeError("points holds a value that is not finite")
+        manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
+        return _motion_of(self._core.path(through.tolist(), {**manner, "law": law, "blend": blend}))
+
+    def follow(
+        self,
+        poses: Any,
+        *,
+        start: Optional[ArrayLike] = None,
+        along: Union[str, Sequence[Union[str, ArrayLike]]] = "line",
+        max_deviation: Optional[float] = None,
+        speed: float = 0.25,
+        alternatives: bool = False,
+        velocity: Limits = None,
+        acceleration: Limits = None,
+        jerk: Limits = None,
+        torque: Limits = None,
+        duration: Optional[float] = None,
+        dt: Optional[float] = None,
+    ) -> Motion:
+        """A path of the hand through poses ``(m, 4, 4)``, followed by the joints and timed.
+
+        Parameters
+        ----------
+        poses
+            Poses as in `ik_batch`.
+        start
+            The configuration ``(n,)`` at the start; where its hand is elsewhere the path begins there. Otherwise every branch of
+            the first pose is tried, and the one that goes furthest is taken.
+        along
+            What is between poses: ``line``, ``screw`` (about and along one axis in space), or a point ``(3,)`` in the base that an
+            arc goes through; one for all or one for each piece. ``spline`` is a smooth curve through all poses.
+        max_deviation
+            How far the hand may leave its path between samples of the joints, metres; a hundredth of a millimetre otherwise.
+        speed
+            The hand's speed on the average where no accelerations are known, m/s.
+        alternatives
+            Whether `Motion.starts` says what comes of every configuration in which the path can start.
+        velocity, acceleration, jerk, torque, duration, dt
+            As in `path`.
+
+        Where the path cannot be followed to its end `Motion.reached` is below 1, and the last of `Motion.events` says why.
+
+        Raises `MotionError` if the start is out of reach or there is no such timing; the rest as in `path` and `ik_batch`.
+
+        >>> from denavit import Robot
+        >>> robot = Robot("ur5")
+        >>> pose = robot.fk([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])
+        >>> there = pose.copy()
+        >>> there[2, 3] += 0.1
+        >>> motion = robot.follow([pose, there], duration=2.0)
+        >>> motion.ok, float(motion.deviation.distance) < 1e-5
+        (True, True)
+        >>> bool(abs(motion.poses[-1] - there).max() < 1e-5)
+        True
+        """
+        pieces = [along] if isinstance(along, str) else list(along)
+        entries = [p if isinstance(p, str) else _point(p) for p in pieces]
+        manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
+        manner.update(max_deviation=max_deviation, speed=speed, alternatives=alternatives)
+        found = self._core.follow(
+            matrix_of(poses), None if entries == ["spline"] else entries, vector(start, "start"), manner
+        )
+        return _motion_of(found)
+
+    def _joints(self) -> int:
+        return len(self._core.joints)
+
+    def _manner(
+        self,
+        velocity: Limits,
+        acceleration: Limits,
+        jerk: Limits,
+        torque: Limits,
+        duration: Optional[float],
+        dt: Optional[float],
+    ) -> dict[str, Any]:
+        n = self._joints()
+        return {
+            "velocity": _limits(velocity, "velocity", n),
+            "acceleration": _limits(acceleration, "acceleration", n),
+            "jerk": _limits(jerk, "jerk", n),
+            "torque": _limits(torque, "torque", n),
+            "duration": duration,
+            "dt": dt,
+            "law": None,
+            "blend": None,
+            "speed": None,
+            "max_deviation": None,
+            "alternatives": False,
+        }
+
+
+def _limits(given: Limits, what: str, n: int) -> Optional[list[float]]:
+    if given is None:
+        return None
+    values = np.asarray(given, dtype=np.float64)
+    if values.shape not in ((), (n,)):
+        raise ShapeError(f"{what} has the shape {values.shape}; one number or ({n},) is needed")
+    if not np.all(values > 0.0):
+        raise UsageError(f"{what} holds {values[~(values > 0.0)].item(0)}: positive numbers are needed")
+    each: list[float] = np.broadcast_to(values, (n,)).tolist()
+    return each
+
+
+def _point(given: ArrayLike) -> list[float]:
+    point = np.asarray(given, dtype=np.float64)
+    if point.shape != (3,):
+        raise ShapeError(f"a point of an arc has the shape {point.shape}; (3,) is needed")
+    place: list[float] = point.tolist()
+    return place
+
+
+def _motion_of(found: dict[str, Any]) -> Motion:
+    found["poses"] = found["poses"].reshape(-1, 4, 4)
+    found["events"] = [Event(**event) for event in found["events"]]
+    found["starts"] = [Start(*start) for start in found["starts"]]
+    found["deviation"] = None if found["deviation"] is None else Deviation(*found["deviation"])
+    found["clearance"] = None if found["clearance"] is None else Clearance(*found["clearance"])
+    return Motion(_moving=found.pop("moving"), **found)
