@@ -13,6 +13,7 @@ mod named;
 mod programs;
 mod ready;
 mod robot;
+mod symbols;
 mod trouble;
 
 use pyo3::prelude::*;
@@ -26,5 +27,6 @@ fn _denavit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<motion::Moving>()?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(robot::catalogue, module)?)?;
+    module.add_function(wrap_pyfunction!(symbols::not_proved, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::check, module)?)
 }

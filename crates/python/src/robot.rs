@@ -9,6 +9,7 @@ use crate::motion::{self, Along, Manner, Way};
 use crate::named::{body, reference};
 use crate::programs::{self, Programs, VECTORS};
 use crate::ready::Ready;
+use crate::symbols;
 use crate::trouble::{Found, Kind, Trouble, apart, said};
 use denavit::description::{Description, SameChain, prove_same_chain};
 use denavit::forward::{frames_program, pose_program};
@@ -413,6 +414,28 @@ impl Core {
     /// Torques in formulas.
     fn dynamics_explain(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         Ok(self.derive(py, |d| formulas::dynamics(d, format))?)
+    }
+
+    /// What `derive_text`, `ik_explain`, `jacobian_explain` and `dynamics_explain` write, as nodes.
+    fn derive_nodes(&self, py: Python<'_>, from: &str, to: &str, only: &str) -> PyResult<symbols::Listed> {
+        Ok(self.derive(py, |d| symbols::forward(d, from, to, only))?)
+    }
+
+    fn ik_nodes(
+        &self,
+        py: Python<'_>,
+        given: Option<Vec<String>>,
+        goal: &str,
+    ) -> PyResult<symbols::Listed> {
+        Ok(self.derive(py, |d| symbols::inverse(d, given.as_deref(), goal))?)
+    }
+
+    fn jacobian_nodes(&self, py: Python<'_>, of: &str) -> PyResult<symbols::Listed> {
+        Ok(self.derive(py, |d| symbols::jacobian(d, of))?)
+    }
+
+    fn dynamics_nodes(&self, py: Python<'_>) -> PyResult<symbols::Listed> {
+        Ok(self.derive(py, |d| Ok(symbols::dynamics(d)))?)
     }
 
     /// The whole report.

@@ -15,6 +15,14 @@ Angles are radians, lengths metres; poses are 4×4 matrices of the tool in the b
 
 from ._answers import Answer, Answers, Branches, Family, Obstacle
 from ._denavit import Compiled, CompiledIk, __version__
+from ._derivations import (
+    Derivation,
+    DynamicFormulas,
+    ForwardFormulas,
+    InverseFormulas,
+    JacobianFormulas,
+    Step,
+)
 from ._documents import Checked, Claim, check
 from ._errors import (
     ChainError,
@@ -47,12 +55,17 @@ __all__ = [
     "Compiled",
     "CompiledIk",
     "DenavitError",
+    "Derivation",
     "DescriptionError",
     "Deviation",
+    "DynamicFormulas",
     "Event",
     "Family",
     "FileError",
     "Finding",
+    "ForwardFormulas",
+    "InverseFormulas",
+    "JacobianFormulas",
     "Joint",
     "MissingValueError",
     "Motion",
@@ -64,6 +77,7 @@ __all__ = [
     "ShapeError",
     "Start",
     "State",
+    "Step",
     "TorqueDerivatives",
     "UnknownRobotError",
     "UnsupportedError",

@@ -10,6 +10,13 @@ from typing import Any, Optional, Union
 from numpy.typing import ArrayLike
 
 from ._denavit import Core
+from ._derivations import (
+    Derivation,
+    dynamic_formulas,
+    forward_formulas,
+    inverse_formulas,
+    jacobian_formulas,
+)
 from ._documents import Checked, checked_of, read_document
 from ._files import write
 from ._numbers import vector
@@ -17,7 +24,7 @@ from ._numbers import vector
 PathLike = Union[str, os.PathLike[str]]
 
 
-class Formulas:
+class Derivations:
     """The methods of `Robot` that derive."""
 
     __slots__ = ()
@@ -30,7 +37,7 @@ class Formulas:
         frame: Union[str, int] = "base",
         of: Union[str, int] = "tool",
         only: str = "all",
-    ) -> str:
+    ) -> Derivation:
         """Link transforms, the simplified pose of ``of`` in ``frame``, and the shortest algorithm for it, proved.
 
         ``format`` is ``text``, ``latex``, ``typst``, ``markdown``, ``html`` or ``json``; ``only`` what the algorithm
@@ -40,7 +47,13 @@ class Formulas:
         >>> "t14 = " in Robot("ur5").derive()
         True
         """
-        return self._core.derive_text(format, str(frame), str(of), only)
+        core, frames = self._core, (str(frame), str(of))
+        return Derivation._of(
+            format,
+            lambda format: core.derive_text(format, *frames, only),
+            lambda: core.derive_nodes(*frames, only),
+            forward_formulas,
+        )
 
     def ik_explain(
         self,
@@ -48,25 +61,38 @@ class Formulas:
         *,
         given: Optional[Sequence[Union[str, int]]] = None,
         goal: str = "pose",
-    ) -> str:
+    ) -> Derivation:
         """How the closed form of the inverse kinematics is derived, step by step, each step proved.
 
         Formats as in `derive`. Raises `UnsupportedError` with the reason if there is no closed form.
         """
         words = None if given is None else [str(joint) for joint in given]
-        return self._core.ik_explain(format, words, goal)
+        core = self._core
+        return Derivation._of(
+            format,
+            lambda format: core.ik_explain(format, words, goal),
+            lambda: core.ik_nodes(words, goal),
+            inverse_formulas,
+        )
 
-    def jacobian_explain(self, format: str = "text", *, of: Union[str, int] = "tool") -> str:
+    def jacobian_explain(self, format: str = "text", *, of: Union[str, int] = "tool") -> Derivation:
         """The Jacobian in the frame where it is shortest, its determinant in factors, and why the arm is singular where one
         is zero. Formats as in `derive`.
         """
-        return self._core.jacobian_explain(format, str(of))
+        core, body = self._core, str(of)
+        return Derivation._of(
+            format,
+            lambda format: core.jacobian_explain(format, body),
+            lambda: core.jacobian_nodes(body),
+            jacobian_formulas,
+        )
 
-    def dynamics_explain(self, format: str = "text") -> str:
+    def dynamics_explain(self, format: str = "text") -> Derivation:
         """Base parameters and torques as formulas, step by step; symbols of Khalil and Dombre's names where the robot says
         nothing of masses. Formats as in `derive`.
         """
-        return self._core.dynamics_explain(format)
+        core = self._core
+        return Derivation._of(format, core.dynamics_explain, core.dynamics_nodes, dynamic_formulas)
 
     def check(self, document: PathLike, *, name: str = "document.md") -> Checked:
         """The claims of a document about this robot, each with its verdict: see `denavit.check`."""

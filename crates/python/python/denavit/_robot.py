@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ._denavit import Core
 from ._denavit import catalogue as _catalogue
 from ._errors import Finding, findings_of
-from ._formulas import Formulas, PathLike
+from ._formulas import Derivations, PathLike
 from ._motion import Motions
 from ._numbers import Numbers
 from ._rows import toml_of, value
@@ -48,7 +48,7 @@ class Joint:
     velocity: Optional[float]
 
 
-class Robot(Numbers, Formulas, Motions):
+class Robot(Numbers, Derivations, Motions):
     """A robot arm: one chain of joints, from its table.
 
     ``Robot(name)`` takes one of the catalogue (see `catalogue`); `from_file`, `from_dh` and `from_toml` read others. A robot
