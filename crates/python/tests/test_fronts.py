@@ -1,11 +1,12 @@
-"""The interfaces of other packages: EAIK's and LeRobot's."""
+"""The interfaces of other packages: EAIK's, ikpy's and LeRobot's."""
 
 import numpy as np
 import pytest
 from conftest import URDF
 
-from denavit import Robot, ShapeError, UsageError
+from denavit import ChainError, FileError, Robot, ShapeError, UsageError
 from denavit.eaik import DhRobot, HPRobot, IKRobot, UrdfRobot
+from denavit.ikpy import Chain, OriginLink, URDFLink
 from denavit.lerobot import RobotKinematics
 
 HALF = np.pi / 2
@@ -125,3 +126,126 @@ def test_urdf_by_eaiks_name():
     arm = UrdfRobot(URDF / "double_pendulum.urdf")
     q = np.array([0.3, -0.5])
     assert any(np.abs(s - q).max() < 1e-9 for s in arm.IK(arm.fwdKin(q)).Q)
+
+
+def beside(file, elements, mask=None, last=None):
+    """Chains of the same file, here and there."""
+    chain = pytest.importorskip("ikpy.chain")
+    arguments = {"base_elements": list(elements), "active_links_mask": mask, "last_link_vector": last}
+    there = chain.Chain.from_urdf_file(str(file), **arguments, symbolic=False)
+    return Chain.from_urdf_file(file, **arguments, as_written=True), there
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_ikpys_chains(five):
+    last = [0.01, 0.02, 0.03]
+    for file, elements, tip in [
+        (URDF / "ur5_robot.urdf", ["base_link"], None),
+        (URDF / "ur5_robot.urdf", ["shoulder_link", "shoulder_lift_joint"], last),
+        (five, ["base", "j1", "shoulder"], last),
+        (URDF / "double_pendulum.urdf", ["base_link"], None),
+    ]:
+        here, there = beside(file, elements, last=tip)
+        assert [link.name for link in here.links][1:] == [
+            "last_joint" if link.name == "last_joint" else link.name for link in there.links
+        ][1:]
+        assert [link.bounds for link in here.links] == [tuple(link.bounds) for link in there.links]
+        random = np.random.default_rng(9)
+        for _ in range(5):
+            joints = random.uniform(-1, 1, len(here))
+            assert np.abs(here.forward_kinematics(joints) - there.forward_kinematics(joints)).max() < 1e-12
+            pairs = zip(
+                here.forward_kinematics(joints, full_kinematics=True),
+                there.forward_kinematics(joints, full_kinematics=True),
+            )
+            assert all(np.abs(a - b).max() < 1e-12 for a, b in pairs)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_ikpys_inverse_kinematics():
+    here, there = beside(URDF / "ur5_robot.urdf", ["base_link"])
+    moving = [k for k, link in enumerate(here.links) if link.joint_type != "fixed"]
+    random = np.random.default_rng(10)
+    for _ in range(4):
+        joints = np.zeros(len(here))
+        joints[moving] = random.uniform(-1.5, 1.5, len(moving))
+        pose = here.forward_kinematics(joints)
+        near = joints.copy()
+        near[moving] += random.uniform(-0.1, 0.1, len(moving))
+        whole = here.inverse_kinematics_frame(pose, initial_position=near, orientation_mode="all")
+        assert np.abs(whole - joints).max() < 1e-9 and here.residual < 1e-9
+        for arguments in (
+            {"target_position": pose[:3, 3]},
+            {"target_position": pose[:3, 3], "target_orientation": pose[:3, 0], "orientation_mode": "X"},
+            {"target_orientation": pose[:3, 2], "orientation_mode": "Z"},
+        ):
+            found = here.inverse_kinematics(initial_position=near, **arguments)
+            reached = there.forward_kinematics(found)
+            assert here.residual < 1e-7
+            if "target_position" in arguments:
+                assert np.linalg.norm(reached[:3, 3] - pose[:3, 3]) < 1e-7
+            other = there.inverse_kinematics(initial_position=near, **arguments)
+            column = {"X": 0, "Z": 2}.get(arguments.get("orientation_mode"))
+            if column is not None:
+                assert np.abs(reached[:3, column] - pose[:3, column]).max() < 1e-7
+                # What it finds is no worse than what ikpy finds.
+                off = there.forward_kinematics(other)[:3, column] - pose[:3, column]
+                assert here.residual <= np.linalg.norm(off) + 1e-7
+    # What is not active stays.
+    mask = [k in moving[:4] for k in range(len(here))]
+    held, _ = beside(URDF / "ur5_robot.urdf", ["base_link"], mask)
+    found = held.inverse_kinematics([0.3, 0.2, 0.4], initial_position=near)
+    assert held.residual < 1e-7
+    assert all(found[k] == near[k] for k in range(len(here)) if not mask[k])
+    assert np.array_equal(held.active_to_full(held.active_from_full(found), near), found)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_chains_by_hand_are_ikpys():
+    parts = [
+        ("turn", [0.1, 0.0, 0.2], [0.0, 0.3, 0.0], {"rotation": [0, 0, 1], "bounds": (-2.0, 2.0)}),
+        ("bend", [0.0, 0.1, 0.3], [1.5707, 0.0, 0.1], {"rotation": [0, 1, 0]}),
+        (
+            "slide",
+            [0.2, 0.0, 0.0],
+            [0.0, 0.0, 0.0],
+            {"translation": [1, 0, 0], "joint_type": "prismatic", "bounds": (0.0, 0.5)},
+        ),
+        ("hand", [0.05, 0.0, 0.0], [0.0, 0.0, 0.7], {"joint_type": "fixed"}),
+    ]
+    here = Chain([OriginLink(), *(URDFLink(n, p, r, **more) for n, p, r, more in parts)], name="arm")
+    joints = [0.0, 0.4, -0.7, 0.2, 0.0]
+    pose = here.forward_kinematics(joints)
+    found = here.inverse_kinematics(pose[:3, 3], initial_position=[0, 0.1, -0.2, 0.1, 0])
+    assert here.residual < 1e-7 and 0.0 <= found[3] <= 0.5
+    there = pytest.importorskip("ikpy.chain")
+    link = pytest.importorskip("ikpy.link")
+    made = [link.OriginLink()]
+    for name, p, r, more in parts:
+        made.append(link.URDFLink(name, np.array(p), np.array(r), use_symbolic_matrix=False, **more))
+    other = there.Chain(made)
+    assert np.abs(other.forward_kinematics(joints) - pose).max() < 1e-12
+
+
+def test_what_ikpys_chains_refuse(five):
+    with pytest.raises(ChainError, match="no link `base_link`"):
+        Chain.from_urdf_file(five)
+    with pytest.raises(ChainError, match="no joint `knee`"):
+        Chain.from_urdf_file(five, ["base", "knee"])
+    with pytest.raises(FileError, match="none.urdf"):
+        Chain.from_urdf_file(five.with_name("none.urdf"))
+    chain = Chain.from_urdf_file(five, ["base"])
+    assert len(chain) == 7 and repr(chain).startswith("Kinematic chain")
+    with pytest.raises(ShapeError, match=r"\(7,\) is needed"):
+        chain.forward_kinematics([0.0] * 6)
+    with pytest.raises(UsageError, match="neither"):
+        chain.inverse_kinematics()
+    with pytest.raises(UsageError, match="no orientation_mode `W`"):
+        chain.inverse_kinematics([0, 0, 0], [0, 0, 1], "W")
+    with pytest.raises(UsageError, match="has 2 entries; 7"):
+        Chain.from_urdf_file(five, ["base"], active_links_mask=[True, False])
+    # Out of reach: what comes nearest, and how far off that is.
+    found = chain.inverse_kinematics([2.0, 0.0, 0.1])
+    assert chain.residual > 1.0
+    tip = chain.forward_kinematics(found)[:3, 3]
+    assert abs(np.linalg.norm(tip - [2.0, 0.0, 0.1]) - chain.residual) < 1e-12

@@ -13,17 +13,12 @@ True
 Angles are radians, lengths metres; poses are 4×4 matrices of the tool in the base.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from ._answers import Answer, Answers, Branches, Family, Obstacle
 from ._denavit import Compiled, CompiledIk, __version__
-from ._derivations import (
-    Derivation,
-    DynamicFormulas,
-    ForwardFormulas,
-    InverseFormulas,
-    JacobianFormulas,
-    Step,
-)
-from ._documents import Checked, Claim, check
 from ._errors import (
     ChainError,
     DenavitError,
@@ -39,9 +34,20 @@ from ._errors import (
     UnsupportedError,
     UsageError,
 )
-from ._motion import Clearance, Deviation, Event, Motion, Start, State
 from ._robot import Joint, Robot, catalogue
 from ._slopes import AccelerationDerivatives, TorqueDerivatives
+
+if TYPE_CHECKING:
+    from ._derivations import (
+        Derivation,
+        DynamicFormulas,
+        ForwardFormulas,
+        InverseFormulas,
+        JacobianFormulas,
+        Step,
+    )
+    from ._documents import Checked, Claim, check
+    from ._paths import Clearance, Deviation, Event, Motion, Start, State
 
 __all__ = [
     "AccelerationDerivatives",
@@ -86,3 +92,30 @@ __all__ = [
     "catalogue",
     "check",
 ]
+
+#: What is read when it is first needed, and where it is.
+_LATE = {
+    "_derivations": [
+        "Derivation",
+        "DynamicFormulas",
+        "ForwardFormulas",
+        "InverseFormulas",
+        "JacobianFormulas",
+        "Step",
+    ],
+    "_documents": ["Checked", "Claim", "check"],
+    "_paths": ["Clearance", "Deviation", "Event", "Motion", "Start", "State"],
+}
+
+
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    for module, names in _LATE.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from pathlib import Path
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Optional, Union
 
 from numpy.typing import ArrayLike
 
 from ._denavit import Core
-from ._derivations import (
-    Derivation,
-    dynamic_formulas,
-    forward_formulas,
-    inverse_formulas,
-    jacobian_formulas,
-)
-from ._documents import Checked, checked_of, read_document
-from ._files import write
 from ._numbers import vector
+
+if TYPE_CHECKING:
+    from ._derivations import Derivation
+    from ._documents import Checked
 
 PathLike = Union[str, os.PathLike[str]]
 
@@ -47,6 +41,8 @@ class Derivations:
         >>> "t14 = " in Robot("ur5").derive()
         True
         """
+        from ._derivations import Derivation, forward_formulas
+
         core, frames = self._core, (str(frame), str(of))
         return Derivation._of(
             format,
@@ -67,6 +63,8 @@ class Derivations:
         Formats as in `derive`. Raises `UnsupportedError` with the reason if there is no closed form.
         """
         words = None if given is None else [str(joint) for joint in given]
+        from ._derivations import Derivation, inverse_formulas
+
         core = self._core
         return Derivation._of(
             format,
@@ -79,6 +77,8 @@ class Derivations:
         """The Jacobian in the frame where it is shortest, its determinant in factors, and why the arm is singular where one
         is zero. Formats as in `derive`.
         """
+        from ._derivations import Derivation, jacobian_formulas
+
         core, body = self._core, str(of)
         return Derivation._of(
             format,
@@ -91,11 +91,15 @@ class Derivations:
         """Base parameters and torques as formulas, step by step; symbols of Khalil and Dombre's names where the robot says
         nothing of masses. Formats as in `derive`.
         """
+        from ._derivations import Derivation, dynamic_formulas
+
         core = self._core
         return Derivation._of(format, core.dynamics_explain, core.dynamics_nodes, dynamic_formulas)
 
     def check(self, document: PathLike, *, name: str = "document.md") -> Checked:
         """The claims of a document about this robot, each with its verdict: see `denavit.check`."""
+        from ._documents import checked_of, read_document
+
         return checked_of(self._core.check(*read_document(document, name)))
 
     def generate(
@@ -124,6 +128,10 @@ class Derivations:
             functions = [part.strip() for part in functions.split(",")]
         files = dict(self._core.generate(language, list(functions), name, goal)[0])
         if folder is not None:
+            from pathlib import Path
+
+            from ._files import write
+
             write(Path(folder), files, overwrite)
         return files
 

@@ -3,141 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ._denavit import Core, Moving
+from ._denavit import Core
 from ._errors import ShapeError, UsageError
 from ._numbers import vector
 from ._poses import matrix_of
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from ._paths import Motion
+
 Limits = Optional[Union[float, ArrayLike]]
-
-
-class State(NamedTuple):
-    """Joints at times, ``(..., n)`` each: rad or m, per second, per second squared."""
-
-    q: Floats
-    qd: Floats
-    qdd: Floats
-
-
-@dataclass(frozen=True, eq=False)
-class Event:
-    """Something that a path of the hand meets."""
-
-    #: Where: the part of the way, from 0 to 1.
-    s: float
-    #: ``singular``, ``limit``, ``within_limits`` or ``end``.
-    kind: str
-    #: In words.
-    words: str
-    #: The joints there, ``(n,)``.
-    q: Floats
-    #: The joint that leaves its limits or enters them again, from 1.
-    joint: Optional[int]
-    #: The limit.
-    limit: Optional[float]
-    #: The factor of the Jacobian's determinant that is 0, where it is one that is known.
-    factor: Optional[str]
-    #: How the axes lie, where that is known.
-    why: Optional[str]
-    #: Whether the factor changes its sign.
-    crossed: Optional[bool]
-    #: Whether the hand could go on in another branch, where the path ends.
-    reachable: Optional[bool]
-
-
-class Clearance(NamedTuple):
-    """How near a path comes to a singular configuration."""
-
-    #: Where it is nearest, from 0 to 1.
-    s: float
-    #: The joints there, ``(n,)``.
-    q: Floats
-    #: The smallest singular value of the Jacobian there, lengths by the reach.
-    smallest: float
-
-
-class Deviation(NamedTuple):
-    """How far the hand leaves its path at most."""
-
-    #: Metres.
-    distance: float
-    #: Radians.
-    angle: float
-
-
-class Start(NamedTuple):
-    """A configuration in which a path can start, and what comes of it."""
-
-    #: The joints, ``(n,)``.
-    q: Floats
-    #: Its branch: ``shoulder+ elbow−``.
-    branch: str
-    #: The part of the path that it follows, 1 if all.
-    reached: float
-    #: How many singular configurations are on the way.
-    singular: int
-    #: Whether it stays within the limits.
-    within_limits: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """A motion of all joints, in samples; `at` gives it at other times."""
-
-    #: Seconds, ``(k,)``.
-    t: Floats
-    #: Joints, ``(k, n)``, radians and metres.
-    q: Floats
-    #: Their velocities, ``(k, n)``.
-    qd: Floats
-    #: Their accelerations, ``(k, n)``.
-    qdd: Floats
-    #: Poses of the tool, ``(k, 4, 4)``.
-    poses: Floats
-    #: √det(J Jᵀ), lengths by the arm's size, ``(k,)``.
-    manipulability: Floats
-    #: Seconds.
-    duration: float
-    #: What path it is, in words.
-    course: str
-    #: How it was timed, in words.
-    timing: str
-    #: Whether it goes to the end of the path, within the limits.
-    ok: bool
-    #: The same in words.
-    verdict: str
-    #: The part of the path that could be followed, 1 if all.
-    reached: float
-    #: How far the hand leaves its path between samples, where it has one.
-    deviation: Optional[Deviation]
-    #: Whether all singular configurations on the way are among `events`, where the hand has a path.
-    certified: Optional[bool]
-    #: How near the path comes to a singular configuration, where no factors tell.
-    clearance: Optional[Clearance]
-    #: What a path of the hand meets, in order.
-    events: list[Event]
-    #: Configurations in which a path of the hand can start, where that was asked for or matters.
-    starts: list[Start]
-    _moving: Moving = field(repr=False)
-
-    def at(self, t: ArrayLike) -> State:
-        """The state at times ``t``, seconds, of any shape ``(...)``: ``(..., n)`` each; at rest before and behind the motion."""
-        times = np.asarray(t, dtype=np.float64)
-        found = self._moving.at(times.ravel().tolist())
-        return State(*(one.reshape(*times.shape, self.q.shape[1]) for one in found))
-
-    def __len__(self) -> int:
-        return len(self.t)
-
-    def __repr__(self) -> str:
-        return f"<Motion: {self.course}, {self.duration:.4g} s, {len(self)} samples; {self.verdict}>"
 
 
 class Motions:
@@ -196,7 +75,9 @@ class Motions:
         if not np.all(np.isfinite(through)):
             raise ShapeError("points holds a value that is not finite")
         manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
-        return _motion_of(self._core.path(through.tolist(), {**manner, "law": law, "blend": blend}))
+        from ._paths import motion_of
+
+        return motion_of(self._core.path(through.tolist(), {**manner, "law": law, "blend": blend}))
 
     def follow(
         self,
@@ -257,7 +138,9 @@ class Motions:
         found = self._core.follow(
             matrix_of(poses), None if entries == ["spline"] else entries, vector(start, "start"), manner
         )
-        return _motion_of(found)
+        from ._paths import motion_of
+
+        return motion_of(found)
 
     def _joints(self) -> int:
         return len(self._core.joints)
@@ -305,12 +188,3 @@ def _point(given: ArrayLike) -> list[float]:
         raise ShapeError(f"a point of an arc has the shape {point.shape}; (3,) is needed")
     place: list[float] = point.tolist()
     return place
-
-
-def _motion_of(found: dict[str, Any]) -> Motion:
-    found["poses"] = found["poses"].reshape(-1, 4, 4)
-    found["events"] = [Event(**event) for event in found["events"]]
-    found["starts"] = [Start(*start) for start in found["starts"]]
-    found["deviation"] = None if found["deviation"] is None else Deviation(*found["deviation"])
-    found["clearance"] = None if found["clearance"] is None else Clearance(*found["clearance"])
-    return Motion(_moving=found.pop("moving"), **found)

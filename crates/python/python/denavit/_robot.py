@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -272,6 +271,8 @@ class Robot(Numbers, Derivations, Motions):
 
     def _repr_html_(self) -> str:
         """The table and a picture, for notebooks."""
+        import html
+
         head, rows = self._core.table
         cells = "".join(f"<th>{html.escape(h)}</th>" for h in head)
         body = "".join("<tr>" + "".join(f"<td>{html.escape(c)}</td>" for c in row) + "</tr>" for row in rows)

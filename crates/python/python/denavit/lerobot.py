@@ -22,15 +22,12 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._descent import descend
 from ._errors import ShapeError, UsageError
 from ._poses import matrix_of
 from ._robot import Robot
 
 Floats = NDArray[np.float64]
-
-#: Steps of the descent at most, and the step below which it has arrived, radians.
-_STEPS = 60
-_ARRIVED = 1e-10
 
 
 class RobotKinematics:
@@ -127,30 +124,15 @@ class RobotKinematics:
         return np.concatenate([target[:3, 3] - pose[:3, 3], vector])
 
     def _descend(self, q: Floats, target: Floats, position: float, orientation: float) -> Floats:
-        """Levenberg and Marquardt's steps within the limits."""
+        """A local minimum within the limits."""
         weights = np.repeat([np.sqrt(position), np.sqrt(orientation)], 3)
-        q = np.clip(q, self._lower, self._upper)
-        off = weights * self._off(q, target)
-        damping = 1e-6
-        for _ in range(_STEPS):
-            slopes = weights[:, None] * self.robot.jacobian(q)
-            # A joint at its limit that would be pushed beyond does not move.
-            pull = slopes.T @ off
-            free = ~(((q <= self._lower) & (pull < 0.0)) | ((q >= self._upper) & (pull > 0.0)))
-            normal = slopes.T @ slopes
-            moves = np.zeros_like(q)
-            while damping < 1e12:
-                part = normal[np.ix_(free, free)] + damping * np.eye(int(free.sum()))
-                moves[free] = np.linalg.solve(part, pull[free])
-                there = np.clip(q + moves, self._lower, self._upper)
-                next_off = weights * self._off(there, target)
-                if next_off @ next_off <= off @ off:
-                    break
-                damping *= 8.0
-            else:
-                break
-            arrived = bool(np.max(np.abs(there - q), initial=0.0) < _ARRIVED)
-            q, off, damping = there, next_off, max(damping / 8.0, 1e-12)
-            if arrived:
-                break
-        return q
+
+        def off(q: Floats) -> Floats:
+            missing: Floats = weights * self._off(q, target)
+            return missing
+
+        def slopes(q: Floats) -> Floats:
+            by: Floats = weights[:, None] * self.robot.jacobian(q)
+            return by
+
+        return descend(q, self._lower, self._upper, off, slopes)

@@ -1,0 +1,145 @@
+"""What motions are: samples, and what a path of the hand meets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._denavit import Moving
+
+Floats = NDArray[np.float64]
+
+
+class State(NamedTuple):
+    """Joints at times, ``(..., n)`` each: rad or m, per second, per second squared."""
+
+    q: Floats
+    qd: Floats
+    qdd: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """Something that a path of the hand meets."""
+
+    #: Where: the part of the way, from 0 to 1.
+    s: float
+    #: ``singular``, ``limit``, ``within_limits`` or ``end``.
+    kind: str
+    #: In words.
+    words: str
+    #: The joints there, ``(n,)``.
+    q: Floats
+    #: The joint that leaves its limits or enters them again, from 1.
+    joint: Optional[int]
+    #: The limit.
+    limit: Optional[float]
+    #: The factor of the Jacobian's determinant that is 0, where it is one that is known.
+    factor: Optional[str]
+    #: How the axes lie, where that is known.
+    why: Optional[str]
+    #: Whether the factor changes its sign.
+    crossed: Optional[bool]
+    #: Whether the hand could go on in another branch, where the path ends.
+    reachable: Optional[bool]
+
+
+class Clearance(NamedTuple):
+    """How near a path comes to a singular configuration."""
+
+    #: Where it is nearest, from 0 to 1.
+    s: float
+    #: The joints there, ``(n,)``.
+    q: Floats
+    #: The smallest singular value of the Jacobian there, lengths by the reach.
+    smallest: float
+
+
+class Deviation(NamedTuple):
+    """How far the hand leaves its path at most."""
+
+    #: Metres.
+    distance: float
+    #: Radians.
+    angle: float
+
+
+class Start(NamedTuple):
+    """A configuration in which a path can start, and what comes of it."""
+
+    #: The joints, ``(n,)``.
+    q: Floats
+    #: Its branch: ``shoulder+ elbow−``.
+    branch: str
+    #: The part of the path that it follows, 1 if all.
+    reached: float
+    #: How many singular configurations are on the way.
+    singular: int
+    #: Whether it stays within the limits.
+    within_limits: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion of all joints, in samples; `at` gives it at other times."""
+
+    #: Seconds, ``(k,)``.
+    t: Floats
+    #: Joints, ``(k, n)``, radians and metres.
+    q: Floats
+    #: Their velocities, ``(k, n)``.
+    qd: Floats
+    #: Their accelerations, ``(k, n)``.
+    qdd: Floats
+    #: Poses of the tool, ``(k, 4, 4)``.
+    poses: Floats
+    #: √det(J Jᵀ), lengths by the arm's size, ``(k,)``.
+    manipulability: Floats
+    #: Seconds.
+    duration: float
+    #: What path it is, in words.
+    course: str
+    #: How it was timed, in words.
+    timing: str
+    #: Whether it goes to the end of the path, within the limits.
+    ok: bool
+    #: The same in words.
+    verdict: str
+    #: The part of the path that could be followed, 1 if all.
+    reached: float
+    #: How far the hand leaves its path between samples, where it has one.
+    deviation: Optional[Deviation]
+    #: Whether all singular configurations on the way are among `events`, where the hand has a path.
+    certified: Optional[bool]
+    #: How near the path comes to a singular configuration, where no factors tell.
+    clearance: Optional[Clearance]
+    #: What a path of the hand meets, in order.
+    events: list[Event]
+    #: Configurations in which a path of the hand can start, where that was asked for or matters.
+    starts: list[Start]
+    _moving: Moving = field(repr=False)
+
+    def at(self, t: ArrayLike) -> State:
+        """The state at times ``t``, seconds, of any shape ``(...)``: ``(..., n)`` each; at rest before and behind the motion."""
+        times = np.asarray(t, dtype=np.float64)
+        found = self._moving.at(times.ravel().tolist())
+        return State(*(one.reshape(*times.shape, self.q.shape[1]) for one in found))
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        return f"<Motion: {self.course}, {self.duration:.4g} s, {len(self)} samples; {self.verdict}>"
+
+
+def motion_of(found: dict[str, Any]) -> Motion:
+    """A motion out of what the module gives."""
+    found["poses"] = found["poses"].reshape(-1, 4, 4)
+    found["events"] = [Event(**event) for event in found["events"]]
+    found["starts"] = [Start(*start) for start in found["starts"]]
+    found["deviation"] = None if found["deviation"] is None else Deviation(*found["deviation"])
+    found["clearance"] = None if found["clearance"] is None else Clearance(*found["clearance"])
+    return Motion(_moving=found.pop("moving"), **found)
