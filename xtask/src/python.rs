@@ -10,16 +10,19 @@ use std::process::Command;
 const PACKAGE: &str = "crates/python/python/denavit";
 const TESTS: &str = "crates/python/tests";
 /// What tests use.
-const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "mypy", "jax"];
+const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "sympy", "jax", "ikpy", "nbformat"];
+/// What reads the package itself.
+const READERS: &[&str] = &["mypy", "basedpyright", "ruff"];
 
 /// Builds the module beside the program, puts the package together and runs its tests and those of its types.
 ///
 /// # Errors
 /// If something fails.
 pub fn test() -> Result<()> {
-    let python = languages::python(PACKAGES)?;
+    let python = languages::python(&[PACKAGES, READERS].concat())?;
     let program = program()?;
     let folder = put_together()?;
+    style(&python)?;
     types(&python, &folder)?;
     let mut tests = pytest(&python, &program)?;
     succeed(tests.env("PYTHONPATH", &folder))
@@ -51,11 +54,23 @@ fn put_together() -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// mypy finds nothing in the package.
+/// ruff finds nothing in the package and its tests, and all is as it formats it.
+fn style(python: &Path) -> Result<()> {
+    for check in [&["check", "--quiet"][..], &["format", "--check", "--quiet"]] {
+        let mut ruff = command(python);
+        succeed(ruff.args(["-m", "ruff"]).args(check).args(["--no-cache", PACKAGE, TESTS]))?;
+    }
+    Ok(())
+}
+
+/// mypy and pyright find nothing in the package.
 fn types(python: &Path, folder: &Path) -> Result<()> {
     let mut check = command(python);
     check.args(["-m", "mypy", "--strict", "--no-error-summary", "--cache-dir"]).arg(scratch()?.join("mypy"));
-    succeed(check.args(["-p", "denavit"]).env("MYPYPATH", folder))
+    succeed(check.args(["-p", "denavit"]).env("MYPYPATH", folder))?;
+    let mut check = command(python);
+    check.args(["-m", "basedpyright", "--level", "error", "--project", "crates/python", "--pythonpath"]);
+    succeed(check.arg(python))
 }
 
 /// The tests, beside the program.

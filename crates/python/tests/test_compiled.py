@@ -4,12 +4,11 @@ import threading
 
 import numpy as np
 import pytest
-from conftest import peers
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-from test_numbers import with_bodies
 
+from conftest import peers
 from denavit import (
     MissingValueError,
     NoMassesError,
@@ -19,6 +18,7 @@ from denavit import (
     UnsupportedError,
     UsageError,
 )
+from test_numbers import with_bodies
 
 Q = np.array([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])
 UR5 = Robot("ur5")

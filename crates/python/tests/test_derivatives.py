@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from conftest import peers
-from test_numbers import close, with_bodies
 
+from conftest import peers
 from denavit import Robot, ShapeError, UnsupportedError
 from denavit._slopes import pose_slopes, solution_slopes
+from test_numbers import close, with_bodies
 
 Q = np.array([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from conftest import URDF
 
+from conftest import URDF
 from denavit import ChainError, FileError, Robot, ShapeError, UsageError
 from denavit.eaik import DhRobot, HPRobot, IKRobot, UrdfRobot
 from denavit.ikpy import Chain, OriginLink, URDFLink

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from conftest import peers
 
+from conftest import peers
 from denavit import PoseError, Robot, ShapeError, UsageError
 
 Q = np.array([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])

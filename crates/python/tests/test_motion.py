@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 import pytest
-from conftest import URDF
 
+from conftest import URDF
 from denavit import MotionError, NoMassesError, Robot, ShapeError, UsageError
 
 Q = np.array([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])

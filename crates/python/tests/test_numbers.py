@@ -1,15 +1,16 @@
 """Numbers against those of peers and of the command line, and what arrays may be."""
 
 import json
+import os
 import pickle
 import threading
 
 import numpy as np
 import pytest
-from conftest import URDF, peers
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from conftest import URDF, peers
 from denavit import MissingValueError, NoMassesError, Robot, ShapeError, UsageError, catalogue
 
 Q = [0.3, -1.2, 1.5, 0.4, 0.9, -0.6]
@@ -218,14 +219,25 @@ def test_bits_depend_neither_on_threads_nor_on_pickles():
 
 def test_derivations_leave_nothing_behind():
     resource = pytest.importorskip("resource")
-    robot = Robot("scara")
+    count = 10_000 if os.environ.get("DENAVIT_SOAK") else 1_000
+    scara, planar = Robot("scara"), Robot("planar-2r")
+    length = next(iter(scara.parameters))
+
+    def derive(k):
+        scara.set(**{length: 0.3 + k / count}).fk([0.0] * 4)
+        if k % 4 == 0:
+            planar.derive("latex")
+        if k % 16 == 0:
+            planar.ik_explain()
+            planar.set(a1=1.0 + k).compile("fk,jacobian")([0.1, 0.2])
 
     def peak():
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
-    for _ in range(100):
-        robot.set(**{next(iter(robot.parameters)): 0.3}).fk([0.0] * 4)
+    for k in range(100):
+        derive(k)
     before = peak()
-    for k in range(1000):
-        robot.set(**{next(iter(robot.parameters)): 0.3 + k / 1000}).fk([0.0] * 4)
+    for k in range(count):
+        derive(k)
+    # Kilobytes.
     assert peak() - before < 16 * 1024

@@ -4,9 +4,9 @@ import pickle
 
 import numpy as np
 import pytest
-from test_numbers import with_values
 
 from denavit import Derivation, Robot, UnsupportedError, _denavit
+from test_numbers import with_values
 
 sympy = pytest.importorskip("sympy")
 ARMS = ["ur5", "staubli-rx90", "scara", "stanford", "puma560"]

@@ -96,6 +96,10 @@ class Derivation(str):
         made._write, made._list, made._dress = write, listed, dress
         return made
 
+    def __repr__(self) -> str:
+        """The text, to be read."""
+        return str(self)
+
     def __reduce__(self) -> Any:
         return (str, (str(self),))
 
