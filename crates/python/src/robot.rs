@@ -421,12 +421,7 @@ impl Core {
         Ok(self.derive(py, |d| symbols::forward(d, from, to, only))?)
     }
 
-    fn ik_nodes(
-        &self,
-        py: Python<'_>,
-        given: Option<Vec<String>>,
-        goal: &str,
-    ) -> PyResult<symbols::Listed> {
+    fn ik_nodes(&self, py: Python<'_>, given: Option<Vec<String>>, goal: &str) -> PyResult<symbols::Listed> {
         Ok(self.derive(py, |d| symbols::inverse(d, given.as_deref(), goal))?)
     }
 
