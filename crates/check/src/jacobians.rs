@@ -33,6 +33,8 @@ pub(super) struct Told {
     pub axes: Option<usize>,
     /// The words before it speak of these frames: the point of the hand may be at the origin of one.
     pub points: Vec<usize>,
+    /// Its indices name something that is no frame: only what it is wholly is it.
+    pub is_foreign: bool,
 }
 
 /// The rows of a full Jacobian, as they may be named: linear first, angular first.
@@ -78,7 +80,13 @@ impl Subject {
                 }
             }
         }
-        best.map(|(_, about, matrix)| (matrix, about))
+        let (_, about, matrix) = best?;
+        let agrees = |r: usize, c: usize| {
+            let (Some(a), Some(b)) = (printed.entry(r, c), matrix.entry(r, c)) else { return false };
+            equal(a, b).is_equal()
+        };
+        let is_whole = || (0..rows).all(|r| (0..columns).all(|c| agrees(r, c)));
+        (!told.is_foreign || is_whole()).then_some((matrix, about))
     }
 
     /// That of a point which the first joints alone move, as the wrist centre, if most of the matrix agrees with it.
@@ -392,5 +400,8 @@ pub(super) fn told(name: &Name) -> Told {
     let axes = number(&name.left).or_else(|| number(&name.sup));
     // The spatial Jacobian is that of the point at the origin of the base.
     let is_spatial = [&name.left, &name.sup, &name.sub].iter().any(|i| *i == "s");
-    Told { part, frame, axes, points: if is_spatial { vec![0] } else { vec![] } }
+    // `J_v^{ψ}`
+    let is_known = |c: char| c.is_ascii_digit() || "TtsbewBEWHRO+-−∗*'†#".contains(c);
+    let is_foreign = [&name.left, &name.sup].into_iter().any(|i| !i.chars().all(is_known));
+    Told { part, frame, axes, points: if is_spatial { vec![0] } else { vec![] }, is_foreign }
 }

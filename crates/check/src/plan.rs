@@ -13,7 +13,7 @@ use super::programs::{self, Followed, Source};
 use super::remarks;
 use super::subject::Subject;
 use super::tables::OwnTable;
-use super::walk::{Answered, Assertion, Defined, Goal, Walk, points};
+use super::walk::{Answered, Assertion, Defined, Goal, Walk, of_other_points, points};
 use denavit::catalogue;
 use denavit::description::table::PrintedTable;
 use denavit::description::{
@@ -485,6 +485,7 @@ impl Plan {
         ignored.extend(self.remarks.iter().cloned());
         assertions.extend(points(&walk.defined, &assertions, &self.subjects));
         assertions.sort_by_key(|a| a.span.start);
+        of_other_points(&mut assertions, &self.subjects);
         Walked {
             assertions,
             skipped: walk.skipped,

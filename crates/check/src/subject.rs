@@ -333,6 +333,12 @@ impl Subject {
             if let Some(printed) = printed {
                 for name in spellings(printed) {
                     names = declare(names, &name, variable.symbol.into());
+                    // `sa`, `ca` beside the angle a.
+                    if variable.kind == JointKind::Revolute && name.chars().count() == 1 {
+                        let (sine, cosine) = Expr::from(variable.symbol).sin_cos();
+                        names = declare(names, &format!("s{name}"), sine);
+                        names = declare(names, &format!("c{name}"), cosine);
+                    }
                 }
             }
         }

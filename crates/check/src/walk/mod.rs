@@ -6,6 +6,7 @@ mod compare;
 mod defines;
 mod derivatives;
 mod determinants;
+mod elsewhere;
 mod entries;
 mod extracts;
 mod goal;
@@ -20,6 +21,7 @@ mod worded;
 mod words;
 
 pub(super) use cases::speaks_of_singularity;
+pub(super) use elsewhere::of_other_points;
 pub(super) use goal::{Answered, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;

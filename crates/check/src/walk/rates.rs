@@ -153,12 +153,12 @@ impl Walk<'_> {
         const ONLY: [&str; 8] = ["only ", "alone", " nur ", "allein", "seule", "solo ", "sola ", "solamente"];
         let rates = self.subject.rates();
         let is_rate = |e: &Expr| rates.contains(e);
-        let words = [&statement.prose, &statement.heading]
-            .into_iter()
-            .flatten()
-            .filter_map(|s| self.text.get(s.clone()));
-        let says_only = words.into_iter().any(|w| ONLY.iter().any(|o| w.to_lowercase().contains(o)));
-        if !says_only || !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
+        let words = || {
+            let around = [&statement.prose, &statement.heading].into_iter().flatten();
+            around.filter_map(|s| self.text.get(s.clone())).map(str::to_lowercase)
+        };
+        let says_only = words().any(|w| ONLY.iter().any(|o| w.contains(o)));
+        if !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
             return wanted;
         }
         let printed: Vec<Expr> = read
@@ -169,7 +169,15 @@ impl Walk<'_> {
             .map(Expr::from)
             .filter(is_rate)
             .collect();
-        match printed.is_empty() {
+        // A formula without rates, where all are 1.
+        let moves = |e: Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
+        let is_formula = read.iter().skip(1).any(|s| matches!(s, Scalar::Formula(_, s) if moves(s.value())));
+        let are_units =
+            || words().any(|w| w.contains("1 rad/s") || w.contains("unit rate") || w.contains("unit speed"));
+        if printed.is_empty() && is_formula && are_units() {
+            return wanted.substitute(|s| is_rate(&s.into()).then(|| Expr::int(1)));
+        }
+        match printed.is_empty() || !says_only {
             true => wanted,
             false => wanted.substitute(|s| {
                 let e = Expr::from(s);

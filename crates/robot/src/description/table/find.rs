@@ -111,7 +111,19 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
             }
             continue;
         }
-        let grid = grids.last_mut().filter(|_| open);
+        let mut grid = grids.last_mut().filter(|_| open);
+        // A head without the column of the rows' names: `      | theta | d | a | alpha`, `yaw | a | 0 | 0 | -90°`.
+        if let Some(grid) = &mut grid
+            && separator == Separator::Pipe
+            && !rule
+            && !line.starts_with('|')
+            && grid.rows.len() == 1
+            && cells.len() == grid.rows[0].len() + 1
+            && text[grid.span.clone()].trim_start().starts_with('|')
+        {
+            let at = grid.rows[0][0].span.start;
+            grid.rows[0].insert(0, GridCell { text: String::new(), span: at..at });
+        }
         open = match &grid {
             _ if !rule && (cells[0].text.contains('=') || lines::directive(line).is_some()) => false,
             Some(grid) => is_row(line, &cells, grid, loose),
@@ -162,7 +174,8 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
             // Rows may say their number where the head has no column for it.
             if grid.rows.len() == 1 && cells.len() != width {
                 let wider = split(&span, Some(width + 1));
-                let is_labelled = wider.len() == width + 1 && is_numbered(&wider[0].text);
+                let is_labelled =
+                    wider.len() == width + 1 && (is_numbered(&wider[0].text) || is_named_row(&wider));
                 if is_labelled && !grid.rows[0].iter().any(|c| column(&c.text).role == Role::Index) {
                     let at = grid.rows[0][0].span.start;
                     grid.rows[0].insert(0, GridCell { text: String::new(), span: at..at });
@@ -184,7 +197,7 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
                 c.text.len() < 24 && c.text.split(' ').count() < 4 && is_whole && !c.text.contains(':')
             };
             let begins = |cells: &[GridCell]| match has_index {
-                true => is_numbered(&cells[0].text),
+                true => is_numbered(&cells[0].text) || is_named_row(cells),
                 false => {
                     cells.iter().all(is_value)
                         && cells.iter().any(|c| c.text.contains(|x: char| x.is_ascii_digit()))
@@ -249,7 +262,7 @@ fn turned(text: &str) -> Vec<Grid> {
 }
 
 /// A line without the mark of a comment before it.
-fn uncommented(text: &str, span: Range<usize>) -> Range<usize> {
+pub(super) fn uncommented(text: &str, span: Range<usize>) -> Range<usize> {
     let line = &text[span.clone()];
     let bare = line.trim_start().trim_start_matches(['%', '#', '/', '*', '>']);
     match bare.starts_with([' ', '\t']) {
@@ -306,6 +319,17 @@ fn is_numbered(cell: &str) -> bool {
     let cell = bare.trim_end_matches([':', '.', ' ']);
     let name = cell.trim_end_matches(|c: char| c.is_ascii_digit());
     name.len() < cell.len() && name.chars().all(|c| c.is_alphabetic() || matches!(c, ' ' | '_' | '.' | '#'))
+}
+
+/// `boom   b   0   2.10   0 deg`: a word before values with a number among them.
+fn is_named_row(cells: &[GridCell]) -> bool {
+    let Some((name, values)) = cells.split_first() else { return false };
+    let is_word =
+        name.text.chars().count() < 24 && name.text.chars().all(|c| c.is_alphabetic() || "_-. ".contains(c));
+    let is_value =
+        |c: &GridCell| c.text.len() < 24 && c.text.split(' ').count() < 4 && !c.text.contains([':', '=']);
+    let has_digit = |c: &GridCell| c.text.contains(|x: char| x.is_ascii_digit());
+    is_word && !name.text.is_empty() && values.iter().all(is_value) && values.iter().any(has_digit)
 }
 
 /// The cells of a line with blanks between them: two or more, or single ones where these make the told number of cells.

@@ -56,9 +56,14 @@ pub(super) fn joints(
     }
     // The letter of the angles that turn is that of all joints: `t3` along z beside θ1 = `t1`.
     let stems: Vec<String> = joints.iter().filter_map(stem_of_angle).collect();
-    for (row, joint) in rows.iter().zip(&mut joints).filter(|(row, _)| !starred && !says_what_moves(row)) {
+    // Rows before one whose joint has its number are joints, too: σ along z before θ4 in row 4.
+    let last = (0..joints.len()).rfind(|&k| stem_of_angle(&joints[k]).is_some()).unwrap_or(0);
+    for (k, (row, joint)) in rows.iter().zip(&mut joints).enumerate() {
+        if starred || says_what_moves(row) {
+            continue;
+        }
         if *joint == Joint::Fixed
-            && let Some(name) = slide(row, &stems)
+            && let Some(name) = slide(row, &stems).or_else(|| lone_length(row, rows).filter(|_| k < last))
         {
             let (z, number) = (convention.length_z(), row.number);
             note_slide(&row.z, (&name, number, z), out);
@@ -78,7 +83,7 @@ fn stem_of_angle(joint: &Joint) -> Option<String> {
 /// The letter of a way along z in a row that does not turn, where other rows move: `s`, or `p3` in row 3, or one of `stems` with
 /// the number of the row; or a word for one.
 fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
-    const LETTERS: [&str; 15] = [
+    const LETTERS: [&str; 19] = [
         "s",
         "p",
         "x",
@@ -87,6 +92,10 @@ fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
         "u",
         "rho",
         "lambda",
+        "sigma",
+        "delta",
+        "xi",
+        "zeta",
         "ext",
         "extension",
         "stroke",
@@ -103,6 +112,14 @@ fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
     let is_joint = !index.is_empty() && stems.iter().any(|s| s == stem);
     ((LETTERS.contains(&stem) || is_joint) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
         .then(|| name.clone())
+}
+
+/// The one name along z of a row that does not turn, if no other cell of the table holds it.
+fn lone_length(row: &ReadRow, rows: &[ReadRow]) -> Option<String> {
+    let [(name, _)] = &row.z.cell.symbols[..] else { return None };
+    let cells = rows.iter().flat_map(|r| r.cells());
+    let uses = cells.filter(|c| c.cell.symbols.iter().any(|s| s.0 == *name)).count();
+    (uses == 1 && row.theta.cell.symbols.is_empty()).then(|| name.clone())
 }
 
 /// Says that a row slides.

@@ -7,7 +7,7 @@
 //!   them.
 
 use super::columns::{Role, column, plain};
-use super::find::{Grid, GridCell, Separator, lines};
+use super::find::{Grid, GridCell, Separator, cells_between, lines, uncommented};
 use crate::description::units::unit_named;
 use std::ops::Range;
 
@@ -256,6 +256,9 @@ fn order_in(text: &str, line: &Range<usize>) -> Option<(Vec<Role>, usize)> {
     }
     for word in words {
         let bare = source[word.clone()].trim_matches(['(', ')', '[', ']', ':', '.', '%', '#', '/', '{', '}']);
+        if bare.is_empty() {
+            continue;
+        }
         let role = letter(bare).filter(|(r, index)| index.is_none() && run.iter().all(|x| x.0 != *r));
         match role {
             Some((role, _)) => run.push((role, line.start + word.end)),
@@ -345,43 +348,107 @@ fn values(text: &str, span: &Range<usize>) -> Vec<Range<usize>> {
     match () {
         () if source.contains('|') => cut(&|c| c == '|'),
         () if source.contains(',') => cut(&|c| c == ','),
-        () => cut(&char::is_whitespace),
+        () if source.contains(" / ") => {
+            let cuts = source.match_indices(" / ").map(|c| span.start + c.0 + 1);
+            cells_between(text, span.clone(), &cuts.collect::<Vec<usize>>())
+                .into_iter()
+                .map(|c| c.span)
+                .collect()
+        }
+        () => {
+            let mut found = cut(&char::is_whitespace);
+            // `90 deg` is one value.
+            for k in (1..found.len()).rev() {
+                let is_unit =
+                    matches!(&text[found[k].clone()], "deg" | "rad" | "°" | "mm" | "cm" | "m" | "degrees");
+                if is_unit && text[found[k - 1].clone()].ends_with(|c: char| c.is_ascii_digit()) {
+                    found[k - 1].end = found[k].end;
+                    found.remove(k);
+                }
+            }
+            found
+        }
     }
 }
 
-/// Lines that end in as many values: `axis 1 (lift):  0  d1  0  90`.
+/// Lines that end in as many values: `axis 1 (lift):  0  d1  0  90`, `pan | q1 | 0.31 | 0 | pi/2`, `J2:  0 / -90 / q2 / -90`.
 fn in_lines(text: &str, from: usize, order: &[Role]) -> Option<Vec<Told>> {
     let mut rows: Vec<Told> = vec![];
     let rest = from..(from + 4_000).min(text.len());
     let rest = text.get(rest.clone()).map_or(from..text.len(), |_| rest);
     for line in lines(&text[rest.clone()]) {
-        let span = rest.start + line.start..rest.start + line.end;
+        let span = uncommented(text, rest.start + line.start..rest.start + line.end);
         let source = &text[span.clone()];
-        if source.trim_matches(['%', '#', '/', '*', ' ', '-', '=', '\t']).is_empty() {
+        if source.trim_matches(['%', '#', '/', '*', ' ', '-', '=', '\t', '>']).is_empty() {
             continue;
         }
-        let behind = source.rfind([':', ')']).map_or(0, |i| i + 1);
+        let behind = label_end(source);
         let (head, tail) = source.split_at(behind);
         // A row's number, or words with it, before the values.
-        let values = values(text, &(span.start + behind..span.end));
-        let head_number = counted(head);
-        let found = match values.len() {
-            n if n == order.len() && head_number.is_some() => Some((head_number, values)),
-            n if n == order.len() + 1 && head.is_empty() => {
-                let number = text[values[0].clone()].trim().trim_end_matches('.').parse().ok();
-                number.map(|n| (Some(n), values[1..].to_vec()))
+        let mut values = values(text, &(span.start + behind..span.end));
+        let mut number = counted(head).or_else(|| number_of(head));
+        let mut is_labelled = !head.is_empty();
+        if values.len() == order.len() + 1 && !is_labelled {
+            let label = text[values.remove(0)].trim();
+            is_labelled = is_label(label);
+            number = number_of(label);
+            if !is_labelled {
+                values.clear();
             }
-            _ => None,
-        };
-        match found {
-            Some((number, values)) if !tail.contains('=') => {
-                rows.push(Told { number, cells: order.iter().copied().zip(values).collect(), span });
-            }
-            _ if rows.is_empty() && span.start - from < MAX_BEFORE => {}
-            _ => break,
+        }
+        let cells = || values.iter().map(|v| text[v.clone()].trim());
+        let is_row = values.len() == order.len()
+            && !tail.contains('=')
+            && (number.is_some() || cells().all(is_value) && cells().any(is_number));
+        if is_row {
+            rows.push(Told { number, cells: order.iter().copied().zip(values).collect(), span });
+        } else if !rows.is_empty() || span.start - from >= MAX_BEFORE {
+            break;
         }
     }
-    (rows.len() > 1).then_some(rows)
+    // Rows count on, or none does.
+    let counts = rows.iter().filter(|r| r.number.is_some()).count();
+    (rows.len() > 1 && (counts == 0 || counts == rows.len())).then_some(rows)
+}
+
+/// Where the values of a line begin: behind the words before a colon, or those before a last bracket that is no value's.
+fn label_end(source: &str) -> usize {
+    let end = source.rfind(':').map_or(0, |i| i + 1);
+    match source.rfind(')') {
+        Some(at) if at >= end && counted(&source[..at]).is_some() => at + 1,
+        _ => end,
+    }
+}
+
+/// The number that a label is or ends in: `2`, `2:`, `J2:`.
+fn number_of(label: &str) -> Option<usize> {
+    let bare = label.trim().trim_end_matches([':', '.', ')']).trim_start_matches(['(', '-', '*']).trim();
+    let stem = bare.trim_end_matches(|c: char| c.is_ascii_digit());
+    let is_word = stem.chars().count() < 12 && stem.chars().all(|c| c.is_alphabetic() || c == ' ');
+    bare[stem.len()..].parse().ok().filter(|_| is_word)
+}
+
+/// True for a number of a row, or a word for it.
+fn is_label(label: &str) -> bool {
+    let is_word = label.chars().count() < 16
+        && label.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '#' | ':' | ')'));
+    is_word && !label.is_empty()
+}
+
+/// True for what may be a cell: a number, a short name, or a formula of both.
+fn is_value(cell: &str) -> bool {
+    const LONGEST: usize = 6;
+    let is_sign = |c: char| "+-−*/().°π_^{}$\\ ,".contains(c);
+    let words = cell.split(|c: char| !c.is_alphabetic()).filter(|w| !w.is_empty());
+    cell.len() < 24
+        && cell.chars().all(|c| c.is_alphanumeric() || is_sign(c))
+        && (words.clone().all(|w| w.chars().count() <= LONGEST) || words.count() == 1)
+}
+
+/// True for a cell that begins with a number.
+fn is_number(cell: &str) -> bool {
+    let bare = cell.trim_start_matches(['-', '−', '–', '+', '$', ' ']);
+    bare.starts_with(|c: char| c.is_ascii_digit() || c == 'π') || bare.starts_with("pi")
 }
 
 // Constructors of toolboxes -----------------------------------------------------------------------------------------
