@@ -3,15 +3,15 @@
 mod rows;
 mod urdf;
 
-pub use denavit_load::{contents, frame, is_tree, joint};
+pub use denavit_load::{Around, contents, frame, is_tree, joint};
 pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
 use denavit::description::{
-    Chain, Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, NamedFrame, RowChain, RowTree,
-    Severity, TableOptions, read_robot, read_table_robot, read_value, write_toml,
+    Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, RowTree, Severity, TableOptions,
+    read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_load::{
     Content, Contents, ENDINGS, Finding, Kind, Options, Problem, catalogue_name, close_names, listed,
@@ -27,46 +27,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// If there is no such robot, or its file cannot be read or has errors.
 pub fn robot(arguments: &RobotArguments) -> Result<Description, Failure> {
     Ok(robot_file(arguments)?.0)
-}
-
-/// What a chain was taken out of.
-pub enum Around {
-    /// It is all that there is.
-    Nothing,
-    /// A tree of bodies.
-    Bodies(Box<(Mechanism, Chain)>),
-    /// A tree of rows.
-    Rows(Box<RowChain>),
-}
-
-impl Around {
-    /// The joints beside the chain behind which something weighs that hangs on it.
-    pub fn held_joints(&self) -> Vec<String> {
-        match self {
-            Around::Nothing => vec![],
-            Around::Bodies(both) => both.1.held.iter().map(|&j| both.0.joints[j].name.clone()).collect(),
-            Around::Rows(chain) => chain.held.clone(),
-        }
-    }
-
-    /// What the drives of the chain's joints can do by the file, newton metres or newtons, one a joint variable; nothing where it is
-    /// no tree of bodies.
-    pub fn efforts(&self) -> Option<Vec<Option<f64>>> {
-        let Around::Bodies(both) = self else { return None };
-        let (mechanism, chain) = &**both;
-        let value = |s| chain.description.value(s);
-        let of = |&j: &usize| mechanism.joints[j].effort.and_then(|e| e.eval(value).ok());
-        Some(chain.joints.iter().map(of).collect())
-    }
-
-    /// The frames that do not move on those of the chain's table, by their names.
-    pub fn frames(&self) -> Vec<NamedFrame> {
-        match self {
-            Around::Nothing => vec![],
-            Around::Bodies(both) => both.0.frames(&both.1),
-            Around::Rows(chain) => chain.frames.clone(),
-        }
-    }
 }
 
 /// Reads the robot as [`robot`] does, with what its chain was taken out of.
@@ -220,7 +180,7 @@ fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String
 /// The chain of what was read, and its text if that describes just this chain.
 fn robot_of_rows(arguments: &RobotArguments, described: Described, text: &str) -> Result<Found, Failure> {
     let is_chain = matches!(described, Described::Chain(_));
-    let (description, around) = rows::chain(arguments, described)?;
+    let (description, around) = rows::chain(arguments, Content::Rows(described))?;
     Ok((description, is_chain.then(|| text.to_string()), around))
 }
 

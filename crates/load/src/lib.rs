@@ -2,14 +2,17 @@
 //!
 //! - [`listed`]: the text of an arm of the catalogue; [`close_names`]: what may have been meant.
 //! - [`Kind`]: what a file holds, by its ending or its root element; [`read`]: what stands in it.
+//! - [`Content::chain`]: the chain of it, and what is around that ([`Around`]).
 //! - [`Folder`]: the files that a description names, where they lie.
 //! - [`joint`], [`frame`]: joints and frames by number or name.
 
+mod chain;
 mod folder;
 mod kind;
 mod named;
 mod read;
 
+pub use chain::{Around, NotTaken};
 pub use folder::{Folder, Found, plain};
 pub use kind::{ENDINGS, Kind, catalogue_name, close_names, is_tree, listed};
 pub use named::{frame, joint};

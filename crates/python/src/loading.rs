@@ -2,10 +2,11 @@
 
 use crate::trouble::{Found, Kind, Trouble, all_found, apart, found, said};
 use denavit::description::{
-    Convention, Described, Description, JointKind, NoChain, RowTree, TableOptions, read_robot, read_toml,
-    write_toml,
+    Convention, Description, JointKind, NoChain, TableOptions, read_robot, read_toml, write_toml,
 };
-use denavit_load::{Content, ENDINGS, Options, Problem, catalogue_name, close_names, listed, read};
+use denavit_load::{
+    Around, Content, ENDINGS, NotTaken, Options, Problem, catalogue_name, close_names, listed, read,
+};
 use denavit_report::document::plain;
 use denavit_report::words::{Tongue, Whole};
 use denavit_symbolic::Expr;
@@ -154,44 +155,34 @@ impl Request {
     fn chain_of(&self, content: Content, mut findings: Vec<Found>) -> Result<Facts, Trouble> {
         let words = Tongue::English.words();
         let name = self.name.as_str();
-        let (base, tip) = (self.base.as_deref(), self.tip.as_deref());
         let given = self.convention.as_deref().map(convention).transpose()?;
-        let no_chain = |why: NoChain| {
-            let hint = if matches!(why, NoChain::Several(_)) { "; name one as `tip`" } else { "" };
-            Trouble::new(Kind::Chain, format!("{name}: {why}{hint}"))
-        };
-        let mut of_rows = |tree: &RowTree| {
-            let chain = tree.chain(base, tip, given.unwrap_or(Convention::Khalil)).map_err(no_chain)?;
-            if let Some(agreement) = chain.agreement {
-                let how = words.agreement(agreement, Whole::Tree);
-                findings.push(said("note", format!("from `{}` to `{}`: {how}", chain.from, chain.to), name));
-            }
-            if let Some(why) = &chain.unweighed {
-                findings.push(said("warning", why.to_string(), name));
-            }
-            Ok(chain.description)
-        };
-        let description = match content {
-            Content::Rows(Described::Chain(_)) if base.is_some() || tip.is_some() => {
-                return Err(Trouble::new(
-                    Kind::Chain,
-                    format!("{name} is one chain: it has no links to choose from"),
-                ));
-            }
-            Content::Rows(Described::Chain(description)) => *description,
-            Content::Rows(Described::Tree(tree)) => of_rows(&tree)?,
-            Content::Par(tree) => of_rows(&tree)?,
-            Content::Bodies(mechanism) => {
-                let convention = given.unwrap_or(Convention::Standard);
-                let chain = mechanism.chain(base, tip, convention).map_err(no_chain)?;
-                findings.push(said("note", words.chain(&chain, &mechanism), name));
-                if let Some(why) = &chain.unweighed {
-                    findings.push(said("warning", why.to_string(), name));
+        let taken = content.chain(name, self.base.as_deref(), self.tip.as_deref(), given);
+        let (description, around) = taken.map_err(|why| {
+            let why = match why {
+                NotTaken::OneChain => format!("{name} is one chain: it has no links to choose from"),
+                NotTaken::NoChain(why) => {
+                    let hint = if matches!(why, NoChain::Several(_)) { "; name one as `tip`" } else { "" };
+                    format!("{name}: {why}{hint}")
                 }
-                let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
-                Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description.clone() }
+            };
+            Trouble::new(Kind::Chain, why)
+        })?;
+        let unweighed = match &around {
+            Around::Nothing => None,
+            Around::Rows(chain) => {
+                if let Some(agreement) = chain.agreement {
+                    let how = words.agreement(agreement, Whole::Tree);
+                    let note = format!("from `{}` to `{}`: {how}", chain.from, chain.to);
+                    findings.push(said("note", note, name));
+                }
+                chain.unweighed.as_ref()
+            }
+            Around::Bodies(both) => {
+                findings.push(said("note", words.chain(&both.1, &both.0), name));
+                both.1.unweighed.as_ref()
             }
         };
+        findings.extend(unweighed.map(|why| said("warning", why.to_string(), name)));
         Ok(Facts::of(&description, findings))
     }
 }

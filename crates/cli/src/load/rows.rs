@@ -4,52 +4,45 @@ use super::{Around, file, unknown_robot};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
-use denavit::description::{Convention, Described, Description, Language, NoChain, RowTree};
-use denavit_load::{Content, Kind};
+use denavit::description::{Described, Description, Language, NoChain, RowTree};
+use denavit_load::{Content, Kind, NotTaken};
 use denavit_report::words::Whole;
 
 /// The chain of what was read, and what is around it; a description that is one already has no `--base` and `--tip`.
 ///
 /// # Errors
 /// If there is no such chain.
-pub fn chain(arguments: &RobotArguments, described: Described) -> Result<(Description, Around), Failure> {
-    let name = arguments.robot.as_str();
-    let tree = match described {
-        Described::Chain(d) => {
-            let given = [(&arguments.base, "--base"), (&arguments.tip, "--tip")];
-            return match given.into_iter().find(|g| g.0.is_some()) {
-                None => Ok((*d, Around::Nothing)),
-                Some((_, option)) => Err(Failure::Usage(format!(
-                    "{option} is for URDF files and trees, and {name} is one chain"
-                ))),
-            };
+pub fn chain(arguments: &RobotArguments, content: Content) -> Result<(Description, Around), Failure> {
+    let (description, around) = taken(arguments, content)?;
+    if let Around::Rows(chain) = &around {
+        let joints = description.variables().len();
+        let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
+        let rows = match chain.agreement {
+            None => "its rows as they stand".to_string(),
+            Some(agreement) => words().agreement(agreement, Whole::Tree),
+        };
+        note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
+        if let Some(why) = &chain.unweighed {
+            note(&format!("warning: {why}"));
         }
-        Described::Tree(tree) => tree,
-    };
-    of_tree(arguments, &tree, Convention::Khalil)
+    }
+    Ok((description, around))
 }
 
-/// The chain of a tree that the arguments name.
-fn of_tree(
-    arguments: &RobotArguments,
-    tree: &RowTree,
-    usual: Convention,
-) -> Result<(Description, Around), Failure> {
+/// The chain that the arguments name.
+///
+/// # Errors
+/// If there is none.
+pub fn taken(arguments: &RobotArguments, content: Content) -> Result<(Description, Around), Failure> {
     let name = arguments.robot.as_str();
-    let convention = arguments.convention.map_or(usual, Into::into);
     let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
-    let chain = tree.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
-    let joints = chain.description.variables().len();
-    let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
-    let rows = match chain.agreement {
-        None => "its rows as they stand".to_string(),
-        Some(agreement) => words().agreement(agreement, Whole::Tree),
-    };
-    note(&format!("note: from `{}` to `{}`, {joints}; {rows}", chain.from, chain.to));
-    if let Some(why) = &chain.unweighed {
-        note(&format!("warning: {why}"));
-    }
-    Ok((chain.description.clone(), Around::Rows(Box::new(chain))))
+    content.chain(name, base, tip, arguments.convention.map(Into::into)).map_err(|why| match why {
+        NotTaken::NoChain(why) => no_chain(name, &why),
+        NotTaken::OneChain => {
+            let option = if base.is_some() { "--base" } else { "--tip" };
+            Failure::Usage(format!("{option} is for URDF files and trees, and {name} is one chain"))
+        }
+    })
 }
 
 /// Reads the file of `.par` that the arguments name.
@@ -69,14 +62,11 @@ pub fn par(arguments: &RobotArguments) -> Result<RowTree, Failure> {
 /// If the file cannot be read or has errors, or there is no such chain.
 pub fn from_par(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
     let tree = par(arguments)?;
-    let given = arguments.base.is_some() || arguments.tip.is_some();
-    if tree.is_chain() && !given {
-        let convention = arguments.convention.map_or(Convention::Khalil, Into::into);
-        let chain = tree.chain(None, None, convention);
-        let chain = chain.map_err(|why| no_chain(&arguments.robot, &why))?;
-        return Ok((chain.description, Around::Nothing));
+    if tree.is_chain() && arguments.base.is_none() && arguments.tip.is_none() {
+        let (description, _) = taken(arguments, Content::Par(Box::new(tree)))?;
+        return Ok((description, Around::Nothing));
     }
-    of_tree(arguments, &tree, Convention::Khalil)
+    chain(arguments, Content::Par(Box::new(tree)))
 }
 
 /// The robot that a program makes.
@@ -106,7 +96,7 @@ pub fn from_program(
 }
 
 /// Why there is no chain, with the option that helps.
-pub fn no_chain(name: &str, why: &NoChain) -> Failure {
+fn no_chain(name: &str, why: &NoChain) -> Failure {
     let text = format!("{name}: {why}");
     match why {
         NoChain::Several(_) => Failure::Usage(format!("{text}\n  = hint: choose one with --tip LINK")),

@@ -1,7 +1,6 @@
 //! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
-use super::rows::no_chain;
-use super::{Around, file, options, unknown_robot};
+use super::{Around, file, options, rows, unknown_robot};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
@@ -19,18 +18,16 @@ const SEEN: f64 = 1e-9;
 /// # Errors
 /// If the file cannot be read or has errors, or there is no such chain.
 pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
-    let (name, mechanism) = (arguments.robot.as_str(), mechanism(arguments)?);
-    let convention = arguments.convention.map_or(Convention::Standard, Into::into);
-    let (base, tip) = (arguments.base.as_deref(), arguments.tip.as_deref());
-    let chain = mechanism.chain(base, tip, convention).map_err(|why| no_chain(name, &why))?;
-    let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());
-    note(&format!("note: {}", words().chain(&chain, &mechanism)));
-    if let Some(why) = &chain.unweighed {
-        note(&format!("warning: {why}"));
+    let content = Content::Bodies(Box::new(mechanism(arguments)?));
+    let (description, around) = rows::taken(arguments, content)?;
+    if let Around::Bodies(both) = &around {
+        let (mechanism, chain) = &**both;
+        note(&format!("note: {}", words().chain(chain, mechanism)));
+        if let Some(why) = &chain.unweighed {
+            note(&format!("warning: {why}"));
+        }
     }
-    let description =
-        Description { source: Some(format!("{name}: {from} to {to}")), ..chain.description.clone() };
-    Ok((description, Around::Bodies(Box::new((mechanism, chain)))))
+    Ok((description, around))
 }
 
 /// All of the file that the arguments name.
