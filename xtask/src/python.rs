@@ -33,6 +33,14 @@ fn put_together() -> Result<PathBuf> {
     // As the program is built, so that both take the same libraries.
     let arguments = ["build", "--quiet", "--locked", "--workspace", "--lib", "--bins", "--examples"];
     succeed(cargo().args(arguments))?;
+    assembled("debug")
+}
+
+/// The package with the module that was built to a folder of the target, in a folder of its own.
+///
+/// # Errors
+/// If a file cannot be copied.
+pub fn assembled(built: &str) -> Result<PathBuf> {
     let folder = scratch()?.join("python");
     let package = folder.join("denavit");
     if package.exists() {
@@ -50,7 +58,7 @@ fn put_together() -> Result<PathBuf> {
         () if cfg!(target_os = "macos") => ("libdenavit_python.dylib", "_denavit.abi3.so"),
         () => ("libdenavit_python.so", "_denavit.abi3.so"),
     };
-    fs::copy(target().join("debug").join(library), package.join(module))?;
+    fs::copy(target().join(built).join(library), package.join(module))?;
     Ok(folder)
 }
 

@@ -8,6 +8,7 @@ mod descriptions;
 mod dynamics;
 mod evaluation;
 mod inverse;
+mod python;
 mod report;
 
 pub use inverse::cmake;
@@ -31,6 +32,7 @@ const PARTS: &[Part] = &[
     ("derivation", "Derivation", |_| derivation::run()),
     ("descriptions", "Descriptions", |_| descriptions::run()),
     ("report", "Reports", |_| report::run()),
+    ("python", "From Python", |_| python::run()),
 ];
 /// What stands behind a figure that is above its limit.
 const MISSED: &str = "**missed**";
