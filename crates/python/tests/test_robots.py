@@ -47,6 +47,7 @@ def test_what_a_robot_says():
     assert "a2" in str(robot) and "−90°" in str(robot)
     page = robot._repr_html_()
     assert page.count("<tr>") == 7 and "<svg" in page and "<script" not in page
+    assert "Forward model <math" in page and "<mtable>" in page and page.count("<div") == page.count("</div>")
 
 
 def test_what_stands_in_a_page_is_escaped():

@@ -270,7 +270,7 @@ class Robot(Numbers, Derivations, Motions):
         return "\n".join([repr(self)[len("<Robot: ") : -1], "", *("  " + line for line in lines)])
 
     def _repr_html_(self) -> str:
-        """The table and a picture, for notebooks."""
+        """The table, a picture and the pose as a formula, for notebooks."""
         import html
 
         head, rows = self._core.table
@@ -279,8 +279,16 @@ class Robot(Numbers, Derivations, Motions):
         title = html.escape(repr(self)[len("<Robot: ") : -1])
         return (
             f"<div><p><strong>{title}</strong></p><table><thead><tr>{cells}</tr></thead>"
-            f"<tbody>{body}</tbody></table>{self.figure()}</div>"
+            f"<tbody>{body}</tbody></table>{self.figure()}{self._pose_in_html()}</div>"
         )
+
+    def _pose_in_html(self) -> str:
+        """The pose of the tool in MathML; nothing of arms with more joints than a reader would follow."""
+        if self.n > 7:
+            return ""
+        parts = self._core.derive_text("html", "base", "tool", "all").split("<h2 ")
+        found = (part for part in parts if ">Forward model" in part.split("</h2>")[0])
+        return "".join(f"<h4>{part.split('>', 1)[1].replace('</h2>', '</h4>')}" for part in found)
 
     def __eq__(self, other: object) -> bool:
         """Whether the robot files are the same."""
