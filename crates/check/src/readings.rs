@@ -145,10 +145,10 @@ pub(super) fn weighed(
             (Habits { scaled, ..Habits::clone(&plan.habits) }, Sense::Unit { millimetres: scaled }, MARGIN)
         });
         let found = candidates(&plan.habits, &walked, &score, &letters, has_base);
-        let tools = tools.into_iter().map(|place| {
+        let tools = tools.into_iter().map(|(place, is_told)| {
             let names = Rc::new(plan.subjects[0].vocabulary());
             let place = place.0.map(|e| Formula::new(e, &names));
-            (Habits::clone(&plan.habits), Sense::Tool { place }, MARGIN)
+            (Habits::clone(&plan.habits), Sense::Tool { place }, if is_told { 1 } else { MARGIN })
         });
         let lengths = super::tools::letters_of_lengths(&plan, &walked).into_iter();
         let lengths = lengths.map(|letter| (Habits::clone(&plan.habits), Sense::Lengths { letter }, MARGIN));
@@ -170,7 +170,8 @@ pub(super) fn weighed(
             let is_better = gain >= margin
                 && is_borne_out
                 && (own.wrong.len() < score.wrong.len()
-                    || is_load && own.wrong.len() <= score.wrong.len() + gain)
+                    || is_load
+                        && own.wrong.len() <= score.wrong.len() + gain * if margin == 1 { 2 } else { 1 })
                 && best.as_ref().is_none_or(|b| gain > b.0);
             if is_better {
                 best = Some((gain, other, there, own, sense));
@@ -453,7 +454,7 @@ impl Trials {
             }
             None => {}
         }
-        let mut is_any = false;
+        let (mut is_any, mut is_whole) = (false, true);
         for piece in &assertion.pieces {
             let is_right = match piece {
                 Piece::Pair(pair) => {
@@ -496,13 +497,17 @@ impl Trials {
                     Finding::Wrong(_) => false,
                     _ => continue,
                 },
-                Piece::Unreadable { .. } => continue,
+                Piece::Unreadable { .. } => {
+                    is_whole = false;
+                    continue;
+                }
             };
             if !is_right {
                 return Some(false);
             }
             is_any = true;
         }
-        is_any.then_some(true)
+        // What is read in part only is no support.
+        (is_any && is_whole).then_some(true)
     }
 }

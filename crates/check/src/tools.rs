@@ -19,19 +19,20 @@ const NEAR: usize = 60;
 /// The longest text of a place.
 const LONGEST: usize = 80;
 
-/// Places of the hand in the last frame that the text may mean, for arms without a tool.
-pub(super) fn candidates(text: &str, plan: &Plan, walked: &Walked) -> Vec<Vector<Expr>> {
+/// Places of the hand in the last frame that the text may mean, for arms without a tool, and whether it tells them.
+pub(super) fn candidates(text: &str, plan: &Plan, walked: &Walked) -> Vec<(Vector<Expr>, bool)> {
     let is_bare = |d: &Description| d.tool == Transform::identity();
     if !plan.is_own || plan.subjects.is_empty() || !plan.subjects.iter().all(|s| is_bare(&s.description)) {
         return vec![];
     }
-    let mut found = told(text, plan);
+    let mut found: Vec<_> =
+        by_words(text, plan).into_iter().chain(told(text, plan)).map(|place| (place, true)).collect();
     let zero = Expr::int(0);
     for name in unknown(walked) {
         let size = Expr::symbol(&name);
         for axis in [0, 2, 1] {
             for size in [size, -size] {
-                found.push(Vector(std::array::from_fn(|k| if k == axis { size } else { zero })));
+                found.push((Vector(std::array::from_fn(|k| if k == axis { size } else { zero })), false));
             }
         }
     }
@@ -83,6 +84,62 @@ fn is_length(name: &str) -> bool {
     let first = chars.next().is_some_and(|c| "aAbBcdDeEfghHklLprRt".contains(c));
     let rest: Vec<char> = chars.collect();
     first && rest.len() <= 2 && rest.iter().all(char::is_ascii_alphanumeric)
+}
+
+/// `Q lies on the x axis of frame 3 at the distance L_3`: a letter of length along an axis of the last frame.
+fn by_words(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
+    const AXES: [&str; 8] = ["axis", "achse", "axe ", "asse", "eje", "eixo", "as van", "-as "];
+    const DISTANCES: [&str; 8] =
+        ["distance", "abstand", "distanza", "distancia", "distância", "afstand", "entfernung", "avstånd"];
+    const FAR: usize = 160;
+    let names = Vocabulary::new().open(true);
+    let last: Vec<String> = plan.subjects.iter().map(|s| s.last().to_string()).collect();
+    let zero = Expr::int(0);
+    let plain: String =
+        text.chars().map(|c| if matches!(c, '$' | '*' | '\n' | '{' | '}') { ' ' } else { c }).collect();
+    let lower = plain.to_lowercase();
+    if lower.len() != plain.len() {
+        return vec![];
+    }
+    let mut found: Vec<Vector<Expr>> = vec![];
+    for (at, word) in DISTANCES.iter().flat_map(|w| lower.match_indices(w).take(20)) {
+        let start = edge(&plain, at.saturating_sub(FAR));
+        let sentence = lower[start..at].rsplit(". ").next().unwrap_or_default();
+        let words: Vec<&str> =
+            sentence.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
+        let is_axis = |w: &str| AXES.iter().any(|a| w.starts_with(a.trim_matches([' ', '-'])));
+        // `x axis`, `axe x`, `x3`.
+        let letter = |w: &str| {
+            let stem = w.trim_end_matches(|c: char| c.is_ascii_digit());
+            ["x", "y", "z"].iter().position(|l| *l == stem)
+        };
+        let Some(axis) = words.windows(2).rev().find_map(|w| match () {
+            () if is_axis(w[1]) => letter(w[0]),
+            () if is_axis(w[0]) => letter(w[1]),
+            () => None,
+        }) else {
+            continue;
+        };
+        let is_last = |w: &&str| {
+            let number = w.trim_start_matches(|c: char| c.is_alphabetic());
+            last.iter().any(|l| l == number)
+        };
+        if !words.iter().any(|w| is_last(&w)) {
+            continue;
+        }
+        let behind = plain[at + word.len()..].trim_start();
+        let behind = behind.strip_prefix("of ").or_else(|| behind.strip_prefix("von ")).unwrap_or(behind);
+        let size: String =
+            behind.chars().take_while(|c| c.is_alphanumeric() || matches!(c, '_' | '\\' | '.')).collect();
+        let size = size.trim_end_matches('.');
+        let Some(size) = parse(size, &names).ok().filter(|e| is_short(*e) && !e.is_zero()) else { continue };
+        let place = Vector(std::array::from_fn(|k| if k == axis { size } else { zero }));
+        if !found.contains(&place) {
+            found.push(place);
+        }
+    }
+    found.truncate(MOST_TOLD);
+    found
 }
 
 /// Three lengths in brackets beside the number of the last frame.
