@@ -5,7 +5,7 @@ use crate::inverse::{poses, solver_of};
 use crate::programs::{Named, Programs, VECTORS};
 use crate::ready::Ready;
 use crate::trouble::{Kind, Trouble};
-use denavit::description::Description;
+use denavit::description::{Description, write_toml};
 use denavit::inverse::{Goal, variables};
 use denavit_program::solver::{Leaves, Solutions, SolverFunction, SolverScalar, TOLERANCE};
 use denavit_program::{Composer, Value};
@@ -24,6 +24,8 @@ use std::sync::{Mutex, PoisonError};
 /// their order. One state is computed by machine code, made for this processor, many in blocks on vector instructions.
 #[pyclass(frozen, module = "denavit")]
 pub struct Compiled {
+    /// The text of the robot's file, of which it is made again behind a pickle.
+    text: String,
     ready: Ready,
     n: usize,
     /// Which of [`VECTORS`] it reads.
@@ -83,6 +85,7 @@ impl Compiled {
         };
         let part = |(name, one): (&String, Named)| Part { name: name.clone(), tail: one.tail };
         Ok(Compiled {
+            text: write_toml(d),
             ready: Ready::native(function.map_err(Trouble::missing)?),
             n,
             reads,
@@ -100,6 +103,12 @@ fn dressed<'py>(part: &Part, found: Bound<'py, PyAny>) -> PyResult<Bound<'py, Py
         }
         _ => Ok(found),
     }
+}
+
+/// What a pickle holds: how it is made again.
+fn again<'py>(py: Python<'py>, text: &str, names: Vec<&str>, goal: &str) -> PyResult<Bound<'py, PyAny>> {
+    let make = py.import(intern!(py, "denavit._robot"))?.getattr(intern!(py, "_compiled"))?;
+    Ok((make, (text, names, goal)).into_pyobject(py)?.into_any())
 }
 
 #[pymethods]
@@ -120,6 +129,10 @@ impl Compiled {
     #[getter]
     fn native(&self) -> bool {
         self.ready.is_native()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        again(py, &self.text, self.functions(), "pose")
     }
 
     fn __repr__(&self) -> String {
@@ -171,6 +184,7 @@ impl Compiled {
 /// Call it with poses ``(..., 4, 4)``; it gives `Branches`. Many poses go through vector instructions, on all cores.
 #[pyclass(frozen, module = "denavit")]
 pub struct CompiledIk {
+    text: String,
     function: SolverFunction,
     n: usize,
     goal: Goal,
@@ -185,7 +199,7 @@ impl CompiledIk {
     /// If there is none.
     pub fn of(d: &Description, goal: &str) -> Result<Self, Trouble> {
         let (function, goal) = solver_of(d, goal)?;
-        Ok(CompiledIk { n: d.variables().len(), function, goal, idle: Mutex::default() })
+        Ok(CompiledIk { text: write_toml(d), n: d.variables().len(), function, goal, idle: Mutex::default() })
     }
 
     /// The solutions of one pose: how many, whether they are plain, and their joints in `into`.
@@ -202,6 +216,11 @@ impl CompiledIk {
 
 #[pymethods]
 impl CompiledIk {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let goal = if self.goal == Goal::Position { "position" } else { "pose" };
+        again(py, &self.text, vec!["ik"], goal)
+    }
+
     fn __repr__(&self) -> &'static str {
         "<CompiledIk: ik(pose)>"
     }

@@ -1,5 +1,6 @@
 """Compiled functions: the bits of the methods, many functions at once, the closed form by itself."""
 
+import pickle
 import threading
 
 import numpy as np
@@ -83,6 +84,18 @@ def test_the_closed_form_by_itself():
         Robot("fanuc-crx10ia-l").compile("ik")
     with pytest.raises(UnsupportedError, match="given"):
         Robot("franka-panda").compile("ik")
+
+
+def test_pickles_are_made_again():
+    both, ik = pickle.loads(pickle.dumps((COMPILED, UR5.compile("ik"))))
+    assert both.functions == COMPILED.functions
+    assert all(np.array_equal(a, b) for a, b in zip(both(Q), COMPILED(Q)))
+    assert np.array_equal(ik(UR5.fk(Q)).solutions, UR5.compile("ik")(UR5.fk(Q)).solutions, equal_nan=True)
+    rows = [("q1", 0.4, 0, np.pi / 2), ("q2", 0, 0.3, 0), ("q3", 0, 0.2, 0)]
+    arm = Robot.from_dh(rows, convention="standard")
+    pose = arm.fk([0.1, 0.2, 0.3])
+    places = pickle.loads(pickle.dumps(arm.compile("ik", goal="position")))(pose)
+    assert int(places.counts) == len(arm.ik(pose, goal="position")) == 4
 
 
 def test_what_cannot_be_compiled():

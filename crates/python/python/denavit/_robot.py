@@ -303,3 +303,8 @@ class Robot(Numbers, Derivations, Motions):
 
 def _unpickled(text: str) -> Robot:
     return Robot.from_toml(text)
+
+
+def _compiled(text: str, names: list[str], goal: str) -> Any:
+    robot = Robot.from_toml(text)
+    return robot.compile("ik", goal=goal) if names == ["ik"] else robot.compile(names)
