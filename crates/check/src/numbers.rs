@@ -120,9 +120,14 @@ impl Configuration {
         self.found.iter().map(|values| Configuration { values: values.clone(), ..self.clone() })
     }
 
-    /// True if all joints that a formula speaks of have values in a configuration that was found before.
+    /// The same at each of the whole configurations that were stated before.
+    fn told_before(&self) -> impl Iterator<Item = Configuration> + '_ {
+        self.stated.iter().map(|values| Configuration { values: values.clone(), ..self.clone() })
+    }
+
+    /// True if all joints that a formula speaks of have values in a configuration that was found or stated before.
     pub fn knew(&self, e: Expr, subject: &Subject) -> bool {
-        self.earlier().any(|c| c.knows(e, subject))
+        self.earlier().chain(self.told_before()).any(|c| c.knows(e, subject))
     }
 
     /// The joints have no values any more; those that they had were found, or are kept.
@@ -342,20 +347,18 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
     let here = judge_here(answer, subject, tolerance);
     let there = |at| judge_here(&Answer { at, ..answer.clone() }, subject, tolerance);
     // What is right at another configuration of the document may be said of that one.
-    let is_told = || {
-        let all = answer
-            .at
-            .stated
-            .iter()
-            .map(|values| Configuration { values: values.clone(), ..answer.at.clone() });
-        all.map(there).any(|f| matches!(f, Finding::Equal { .. }))
-    };
+    let is_told = || answer.at.told_before().map(there).any(|f| matches!(f, Finding::Equal { .. }));
+    let is_open = !matches!(here, Finding::Equal { .. } | Finding::Wrong(_));
     let here = match here {
         Finding::Wrong(_) if answer.printed != 0.0 && is_told() => {
             Finding::Undecided { why: Unproved::OtherConfiguration }
         }
         here => here,
     };
+    // Nothing is known here: then it is said of the one that it is right at.
+    if is_open && answer.printed != 0.0 && is_told() {
+        return Finding::Equal { unless_zero: vec![] };
+    }
     if matches!(here, Finding::Equal { .. }) || answer.at.found.is_empty() {
         return here;
     }

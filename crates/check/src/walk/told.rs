@@ -520,7 +520,7 @@ impl Walk<'_> {
 
 /// True for a text that tells a case, not a configuration.
 pub(super) fn is_case(line: &str) -> bool {
-    const CASES: [&str; 32] = [
+    const CASES: [&str; 31] = [
         "satisf",
         "erfüll",
         "soddisf",
@@ -550,16 +550,17 @@ pub(super) fn is_case(line: &str) -> bool {
         "whenever",
         "vanish",
         "degenerate",
-        "would ",
         "should give",
         "s'annule",
     ];
     let lower = line.to_lowercase();
-    CASES.iter().any(|c| {
-        lower
-            .match_indices(c)
-            .any(|(i, _)| !lower[..i].chars().next_back().is_some_and(char::is_alphanumeric))
-    })
+    let is_word = |i: usize| !lower[..i].chars().next_back().is_some_and(char::is_alphanumeric);
+    // `The height would be with b = 90°: z = 4.70` states a configuration.
+    let is_stated = |rest: &str| ["be with ", "be at ", "be for "].iter().any(|w| rest.starts_with(w));
+    let would = "would ";
+    let supposes =
+        lower.match_indices(would).any(|(i, _)| is_word(i) && !is_stated(&lower[i + would.len()..]));
+    supposes || CASES.iter().any(|c| lower.match_indices(c).any(|(i, _)| is_word(i)))
 }
 
 fn is_name(text: &str) -> bool {

@@ -7,6 +7,7 @@ mod dynamics;
 mod dynamics_meant;
 mod hostile;
 mod inverse;
+mod labelled;
 mod marking;
 mod meant_otherwise;
 mod mutations;
