@@ -111,20 +111,20 @@ fn part(number: usize, least: usize) {
 
 #[test]
 fn labelled_first() {
-    part(0, 0);
+    part(0, 226);
 }
 
 #[test]
 fn labelled_second() {
-    part(1, 0);
+    part(1, 217);
 }
 
 #[test]
 fn labelled_third() {
-    part(2, 0);
+    part(2, 245);
 }
 
 #[test]
 fn labelled_fourth() {
-    part(3, 0);
+    part(3, 217);
 }
