@@ -388,8 +388,8 @@ pub(super) fn frames_told(words: &str) -> Vec<usize> {
 pub(super) fn told(name: &Name) -> Told {
     let sub = name.sub.to_lowercase();
     let letters: String = sub.chars().filter(|c| c.is_alphabetic()).collect();
-    // `J_A` is the analytic one.
-    let letters = if name.sub == "A" { String::new() } else { letters };
+    // `J_A` is the analytic one, `J_W` that of a point W.
+    let letters = if matches!(name.sub.as_str(), "A" | "W") { String::new() } else { letters };
     let part = match letters.as_str() {
         "v" | "p" | "l" | "lin" | "t" => Part::Linear,
         "ω" | "w" | "o" | "a" | "ang" | "omega" | "r" => Part::Angular,

@@ -124,7 +124,7 @@ fn by_words(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
             let number = w.trim_start_matches(|c: char| c.is_alphabetic());
             last.iter().any(|l| l == number)
         };
-        if !words.iter().any(|w| is_last(&w)) {
+        if !words.iter().any(is_last) {
             continue;
         }
         let behind = plain[at + word.len()..].trim_start();

@@ -147,15 +147,19 @@ fn equation(d: &Defined, pair: Pair) -> Assertion {
 /// The claims that a point makes.
 fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
     let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+    // A tool that is a point of its own is looked at behind the frames.
+    let tool = subject.last() + 1;
+    let has_tool = subject.description.tool.translation.0.iter().any(|e| !e.is_zero());
+    let place = |k: usize| if k == tool { subject.pose().translation } else { subject.origin(k) };
     let mut best: Option<(usize, usize)> = None;
     // `x_3` is of frame 3, if of any.
     let told = point[0].1.name.trim_matches(|c: char| !c.is_ascii_digit()).parse::<usize>().ok();
     let frames = match told {
         Some(k) => k..=k.min(subject.last()),
-        None => 1..=subject.last(),
+        None => 1..=subject.last() + usize::from(has_tool),
     };
     for k in frames {
-        let origin = subject.origin(k);
+        let origin = place(k);
         let agrees = |(axis, d): &&(usize, &Defined)| {
             moves(d.value) && moves(origin[*axis]) && equal(d.value, origin[*axis]).is_equal()
         };
@@ -168,8 +172,9 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
     let Some((count, k)) = best.filter(is_enough) else { return axis_of_frame(point, subject) };
     // One of three is little: all may be something else.
     if count > 1 || point.len() == 2 || told.is_some() {
-        let origin = subject.origin(k);
-        let frame = Meaning::Frame { of: Reference::Frame(k), seen_from: Reference::Frame(0) };
+        let origin = place(k);
+        let of = if k == tool { Reference::Tool } else { Reference::Frame(k) };
+        let frame = Meaning::Frame { of, seen_from: Reference::Frame(0) };
         // A distance from an axis, `√(x² + y²) - L`, is no coordinate in the base.
         let coordinates = point.iter().filter(|(_, d)| !has_root_of_sum(d.value));
         return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();

@@ -56,14 +56,9 @@ pub(super) fn joints(
     }
     // The letter of the angles that turn is that of all joints: `t3` along z beside θ1 = `t1`.
     let stems: Vec<String> = joints.iter().filter_map(stem_of_angle).collect();
-    // Rows before one whose joint has its number are joints, too: σ along z before θ4 in row 4.
-    let last = (0..joints.len()).rfind(|&k| stem_of_angle(&joints[k]).is_some()).unwrap_or(0);
-    for (k, (row, joint)) in rows.iter().zip(&mut joints).enumerate() {
-        if starred || says_what_moves(row) {
-            continue;
-        }
+    for (row, joint) in rows.iter().zip(&mut joints).filter(|(row, _)| !starred && !says_what_moves(row)) {
         if *joint == Joint::Fixed
-            && let Some(name) = slide(row, &stems).or_else(|| lone_length(row, rows).filter(|_| k < last))
+            && let Some(name) = slide(row, &stems)
         {
             let (z, number) = (convention.length_z(), row.number);
             note_slide(&row.z, (&name, number, z), out);
@@ -112,14 +107,6 @@ fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
     let is_joint = !index.is_empty() && stems.iter().any(|s| s == stem);
     ((LETTERS.contains(&stem) || is_joint) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
         .then(|| name.clone())
-}
-
-/// The one name along z of a row that does not turn, if no other cell of the table holds it.
-fn lone_length(row: &ReadRow, rows: &[ReadRow]) -> Option<String> {
-    let [(name, _)] = &row.z.cell.symbols[..] else { return None };
-    let cells = rows.iter().flat_map(|r| r.cells());
-    let uses = cells.filter(|c| c.cell.symbols.iter().any(|s| s.0 == *name)).count();
-    (uses == 1 && row.theta.cell.symbols.is_empty()).then(|| name.clone())
 }
 
 /// Says that a row slides.
