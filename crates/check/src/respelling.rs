@@ -2,6 +2,7 @@
 
 use super::displayed;
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Where commas are those of numbers, there are so many for each point between digits.
 const COMMAS_A_POINT: usize = 4;
@@ -15,7 +16,9 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 11] = [
+    let of_prose: [fn(&str) -> Option<String>; 13] = [
+        without_speakers,
+        small_functions,
         without_asides,
         apart_by_blanks,
         rates_by_primes,
@@ -42,6 +45,60 @@ fn lines_with_equations(text: &str) -> impl Iterator<Item = (usize, &str)> {
     const LONGEST: usize = 2_000;
     let lines = super::lines::lines(text).map(|line| (line.start, text.get(line).unwrap_or_default()));
     lines.filter(|(_, source)| source.len() <= LONGEST && source.contains('='))
+}
+
+/// A text without the times and names before what people say in a chat, `[12.05., 21:20] Kofi: x2 = …`, if three lines have them;
+/// nothing for other texts.
+fn without_speakers(text: &str) -> Option<String> {
+    const LONGEST: usize = 60;
+    let head = |line: &str| -> Option<usize> {
+        let inner = line.strip_prefix('[')?;
+        let close = inner.find(']').filter(|c| *c < LONGEST)?;
+        let is_time = inner[..close].contains(':') && inner[..close].contains(|c: char| c.is_ascii_digit());
+        let rest = &inner[close + 1..];
+        let colon = rest.find(':').filter(|c| *c < LONGEST)?;
+        let is_name = rest[..colon].trim().chars().all(|c| c.is_alphanumeric() || " ._-".contains(c));
+        (is_time && is_name && !rest[..colon].trim().is_empty()).then_some(close + colon + 3)
+    };
+    let lines = super::lines::lines(text);
+    let heads: Vec<Range<usize>> =
+        lines.filter_map(|line| Some(line.start..line.start + head(text.get(line.clone())?)?)).collect();
+    let mut bytes = text.as_bytes().to_vec();
+    heads.iter().for_each(|h| bytes[h.clone()].fill(b' '));
+    if heads.len() >= 3 { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// A text with small letters for functions in capitals, `S*COS(A)`, `XDOT`; nothing for other texts.
+fn small_functions(text: &str) -> Option<String> {
+    const FUNCTIONS: [&str; 9] = ["ATAN2", "ATAN", "ACOS", "ASIN", "SQRT", "COS", "SIN", "TAN", "DET"];
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (start, source) in lines_with_equations(text) {
+        let is_word_at = |at: usize, length: usize| {
+            let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '\\';
+            !source[..at].ends_with(is_part) && !source[at + length..].starts_with(is_part)
+        };
+        for (at, function) in FUNCTIONS.iter().flat_map(|f| source.match_indices(f)) {
+            let rest = source[at + function.len()..].trim_start();
+            let is_function = match function {
+                "DET" => rest.starts_with('='),
+                _ => rest.starts_with('('),
+            };
+            if is_function && is_word_at(at, function.len()) {
+                bytes[start + at..start + at + function.len()].make_ascii_lowercase();
+                is_any = true;
+            }
+        }
+        for (at, _) in source.match_indices("DOT") {
+            let before = source[..at].ends_with(|c: char| c.is_ascii_alphanumeric());
+            let behind = source[at + 3..].starts_with(|c: char| c.is_alphanumeric() || c == '_');
+            if before && !behind {
+                bytes[start + at..start + at + 3].make_ascii_lowercase();
+                is_any = true;
+            }
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
 /// A text without the numbers in brackets behind others, `x = 160.0 (161), y = …`: they are measured, rounded or of another
