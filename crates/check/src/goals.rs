@@ -32,7 +32,18 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
         let first = &answers[at];
         let line = |a: &Answered| text[..a.span.start].matches('\n').count();
         let same = |a: &&Answered| a.subject == first.subject && line(a) == line(first);
-        let count = answers[at..].iter().take_while(same).count();
+        let mut count = answers[at..].iter().take_while(same).count();
+        // One joint a line, one behind the other, is one configuration.
+        let is_alone = |k: usize| {
+            let a = &answers[k];
+            let is_joint = plan.subjects[a.subject].joints().contains(&a.of);
+            let is_new = answers[at..k].iter().all(|b| b.of != a.of);
+            is_joint && is_new && a.values.len() == 1 && a.subject == first.subject
+        };
+        if count == 1 && is_alone(at) {
+            let goes_on = |k: &usize| line(&answers[*k]) == line(&answers[*k - 1]) + 1 && is_alone(*k);
+            count += (at + 1..answers.len()).take_while(goes_on).count();
+        }
         groups.push(&answers[at..at + count]);
         at += count;
     }

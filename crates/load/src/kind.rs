@@ -1,6 +1,6 @@
 //! What a name stands for: an arm of the catalogue, or a file of some kind.
 
-use crate::read::bytes;
+use crate::text::bytes;
 use denavit::catalogue;
 use denavit::description::{Language, TableKind, root_element};
 use std::path::Path;

@@ -11,9 +11,11 @@ mod folder;
 mod kind;
 mod named;
 mod read;
+mod text;
 
 pub use chain::{Around, NotTaken};
 pub use folder::{Folder, Found, plain};
 pub use kind::{ENDINGS, Kind, catalogue_name, close_names, is_tree, listed};
 pub use named::{frame, joint};
-pub use read::{Content, Contents, Finding, Options, Problem, bytes, contents, read};
+pub use read::{Content, Contents, Finding, Options, Problem, read};
+pub use text::{bytes, contents};

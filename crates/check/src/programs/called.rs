@@ -13,7 +13,7 @@ use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Reading, Value};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Symbol, equal};
+use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use std::ops::Range;
 
 impl Program<'_> {
@@ -24,6 +24,17 @@ impl Program<'_> {
         let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
         let is_axis = matches!(about, Meaning::Axis(..));
         (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
+    }
+
+    /// True if numbers are made of the robot's alone, or of those that the program has for its lengths.
+    pub(super) fn knows_all(&self, numbers: &[Rational]) -> bool {
+        let d = &self.subject.description;
+        let rows = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.b]).flat_map(|e| Expr::postorder(&[e]));
+        let given = self.given.iter().map(|g| g.1);
+        let values = d.parameters.iter().filter_map(|p| d.exact_value(p.symbol));
+        let all = rows.chain(given).chain(values).filter_map(|e| e.as_number());
+        let known: Vec<Rational> = all.map(|r| r.abs()).collect();
+        numbers.iter().all(|r| known.contains(r))
     }
 
     /// `fk_x(…)` by what a function is called.

@@ -355,7 +355,7 @@ impl Program<'_> {
                 // The force of a slide may be a component of the load.
                 let told = self.lexis.names.lookup(&custom::plain(name)).filter(|e| *e == cell.value);
                 if let Some(wanted) =
-                    told.filter(|_| custom::plain(name) != custom::plain(&self.written(cell)))
+                    told.filter(|_| custom::plain(name) != custom::plain(self.written(cell)))
                 {
                     let pieces = vec![self.piece(None, cell, wanted)];
                     return Some(self.assertion(shown, About::Entry, span, pieces, None));
@@ -395,8 +395,8 @@ impl Program<'_> {
     }
 
     /// A cell as it is written.
-    fn written(&self, cell: &Cell) -> String {
-        self.text.get(cell.span.clone()).unwrap_or_default().trim().to_string()
+    fn written(&self, cell: &Cell) -> &str {
+        self.text.get(cell.span.clone()).unwrap_or_default().trim()
     }
 
     /// What a function gives back without a telling name: by its shape the hand's pose, rotation, position or Jacobian.
@@ -564,17 +564,6 @@ impl Program<'_> {
             let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
             given.or_else(|| d.exact_value(s))
         })
-    }
-
-    /// True if numbers are made of the robot's alone, or of those that the program has for its lengths.
-    fn knows_all(&self, numbers: &[Rational]) -> bool {
-        let d = &self.subject.description;
-        let rows = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.b]).flat_map(|e| Expr::postorder(&[e]));
-        let given = self.given.iter().map(|g| g.1);
-        let values = d.parameters.iter().filter_map(|p| d.exact_value(p.symbol));
-        let all = rows.chain(given).chain(values).filter_map(|e| e.as_number());
-        let known: Vec<Rational> = all.map(|r| r.abs()).collect();
-        numbers.iter().all(|r| known.contains(r))
     }
 
     fn assertion(

@@ -250,6 +250,18 @@ impl Walk<'_> {
     /// `the elbow-down solution has q2 = 40°`, or where joints are sought and no pose is given: then it is that one.
     fn pose_of_other_solution(&self, statement: &Statement) -> Vec<Target> {
         const SOLUTIONS: [&str; 6] = ["solution", "soluzion", "lösung", "solucion", "solución", "solução"];
+        const SAME_PLACE: [&str; 10] = [
+            "same po",
+            "même po",
+            "meme po",
+            "gleiche po",
+            "gleichen po",
+            "selbe po",
+            "misma posici",
+            "mismo punto",
+            "stessa posizione",
+            "mesma posi",
+        ];
         const OTHERS: [&str; 18] = [
             "other",
             "second",
@@ -271,13 +283,24 @@ impl Walk<'_> {
             "alternativ",
         ];
         let before = self.text.get(..statement.span.start).unwrap_or_default();
-        let line = before.rsplit('\n').next().unwrap_or_default();
-        if line.len() > FAR {
+        let mut lines = before.rsplit('\n');
+        let own = lines.next().unwrap_or_default();
+        // Numbers on lines of their own stand behind the line that leads to them.
+        let lead =
+            lines.map(str::trim).find(|l| !l.is_empty() && !l.contains('=')).filter(|l| l.ends_with(':'));
+        if own.len() > FAR || lead.is_some_and(|l| l.len() > FAR) {
             return vec![];
         }
-        let line = line.to_lowercase();
+        let line = format!("{} {}", lead.unwrap_or_default(), own).to_lowercase();
         let says = |words: &[&str]| words.iter().any(|w| line.contains(w));
-        let is_other = says(&SOLUTIONS) && says(&OTHERS);
+        // `solution A:`
+        let is_labelled = SOLUTIONS.iter().flat_map(|w| line.match_indices(w)).any(|(at, word)| {
+            let label = line[at + word.len()..].trim_start_matches(char::is_alphabetic).trim_start();
+            let length = label.chars().take_while(|c| c.is_alphanumeric()).count();
+            length == 1
+                && label[label.chars().next().map_or(0, char::len_utf8)..].trim_start().starts_with(':')
+        });
+        let is_other = (says(&SOLUTIONS) || says(&SAME_PLACE)) && (says(&OTHERS) || is_labelled);
         if !is_other && !self.in_inverse {
             return vec![];
         }
