@@ -176,7 +176,16 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         let of = if k == tool { Reference::Tool } else { Reference::Frame(k) };
         let frame = Meaning::Frame { of, seen_from: Reference::Frame(0) };
         // A distance from an axis, `√(x² + y²) - L`, is no coordinate in the base.
-        let coordinates = point.iter().filter(|(_, d)| !has_root_of_sum(d.value));
+        let is_right = |(axis, d): &(usize, &Defined)| equal(d.value, origin[*axis]).is_equal();
+        // A statement that is read twice, as text and as a part of a program, is one claim.
+        let is_twice = |(axis, d): &(usize, &Defined)| {
+            point.iter().any(|o| {
+                let touches = o.1.statement.start < d.statement.end && d.statement.start < o.1.statement.end;
+                touches && o.0 == *axis && !std::ptr::eq(o.1, *d) && is_right(o)
+            })
+        };
+        let coordinates =
+            point.iter().filter(|p| !has_root_of_sum(p.1.value) && (is_right(p) || !is_twice(p)));
         return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
     }
     axis_of_frame(point, subject)

@@ -377,7 +377,7 @@ fn in_lines(text: &str, from: usize, order: &[Role]) -> Option<Vec<Told>> {
     let rest = from..(from + 4_000).min(text.len());
     let rest = text.get(rest.clone()).map_or(from..text.len(), |_| rest);
     for line in lines(&text[rest.clone()]) {
-        let span = uncommented(text, rest.start + line.start..rest.start + line.end);
+        let span = in_matrix(text, uncommented(text, rest.start + line.start..rest.start + line.end));
         let source = &text[span.clone()];
         if source.trim_matches(['%', '#', '/', '*', ' ', '-', '=', '\t', '>']).is_empty() {
             continue;
@@ -409,6 +409,15 @@ fn in_lines(text: &str, from: usize, order: &[Role]) -> Option<Vec<Told>> {
     // Rows count on, or none does.
     let counts = rows.iter().filter(|r| r.number.is_some()).count();
     (rows.len() > 1 && (counts == 0 || counts == rows.len())).then_some(rows)
+}
+
+/// A line without what opens or closes a matrix around its rows: `DH = [ q1 d1 0 pi/2`, `q6 d6 0 0 ];`.
+fn in_matrix(text: &str, span: Range<usize>) -> Range<usize> {
+    let source = &text[span.clone()];
+    let open = source.find('[').filter(|at| source[..*at].trim_end().ends_with('='));
+    let start = span.start + open.map_or(0, |at| at + 1);
+    let end = text[start..span.end].trim_end_matches([' ', ';', ']', ',', '.']).len();
+    start..start + end
 }
 
 /// Where the values of a line begin: behind the words before a colon, or those before a last bracket that is no value's.
