@@ -356,7 +356,7 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
         here => here,
     };
     // Nothing is known here: then it is said of the one that it is right at.
-    if is_open && answer.printed != 0.0 && is_told() {
+    if is_open && tells(answer) && is_told() {
         return Finding::Equal { unless_zero: vec![] };
     }
     if matches!(here, Finding::Equal { .. }) || answer.at.found.is_empty() {
@@ -368,6 +368,12 @@ pub(super) fn judge(answer: &Answer, subject: &Subject, tolerance: Option<f64>) 
     let right = others.iter().find(|f| is_right(f)).cloned();
     let other = || others.into_iter().rfind(is_wrong).filter(|_| !is_wrong(&here));
     right.or_else(other).unwrap_or(here)
+}
+
+/// True for a number with two digits or more: one with fewer is right at many configurations.
+fn tells(answer: &Answer) -> bool {
+    const UNITS: f64 = 20.0;
+    answer.printed.abs() >= UNITS * answer.half && answer.printed.abs() != 1.0 && answer.printed != 0.0
 }
 
 fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Finding {

@@ -1,6 +1,7 @@
 //! Coordinates in print that are those of another point than the hand's: `bucket pin at x = 2.097, y = 1.468, z = 1.428`.
 //!
-//! Numbers of one sentence that are all wrong for the hand, and all right for the origin of one frame before it, are of that frame.
+//! Numbers of one sentence that are all wrong for the hand, and all right for the origin of one frame before it, are of that frame if
+//! the document has the hand's own coordinates right at that configuration: else they may be the hand's without its last link.
 
 use super::{Assertion, Piece};
 use crate::numbers::judge;
@@ -30,7 +31,11 @@ pub(in super::super) fn of_other_points(assertions: &mut [Assertion], subjects: 
         }
         if end - start > 1 {
             runs += 1;
-            move_to_frame(&mut assertions[start..end], subjects);
+            let (others, rest) = assertions.split_at_mut(start);
+            let (run, behind) = rest.split_at_mut(end - start);
+            if run.iter().all(|a| has_own(a, others.iter().chain(&*behind), subjects)) {
+                move_to_frame(run, subjects);
+            }
         }
         start = end.max(start + 1);
     }
@@ -44,6 +49,25 @@ fn coordinate(a: &Assertion, subjects: &[Rc<Subject>]) -> Option<usize> {
 
 fn is_coordinate(a: &Assertion, subjects: &[Rc<Subject>]) -> bool {
     coordinate(a, subjects).is_some()
+}
+
+/// True if the same coordinate of the hand stands elsewhere, right at the same configuration.
+fn has_own<'a>(
+    a: &Assertion,
+    mut others: impl Iterator<Item = &'a Assertion>,
+    subjects: &[Rc<Subject>],
+) -> bool {
+    let [Piece::Number { answer, .. }] = &a.pieces[..] else { return false };
+    let Some(subject) = subjects.get(a.subject) else { return false };
+    others.any(|o| match &o.pieces[..] {
+        [Piece::Number { answer: own, .. }] => {
+            o.subject == a.subject
+                && own.wanted == answer.wanted
+                && own.at.present() == answer.at.present()
+                && matches!(judge(own, subject, None), Finding::Equal { .. })
+        }
+        _ => false,
+    })
 }
 
 fn move_to_frame(run: &mut [Assertion], subjects: &[Rc<Subject>]) {
