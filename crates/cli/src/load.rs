@@ -148,6 +148,9 @@ fn file(arguments: &RobotArguments, kind: Kind) -> Result<Contents, Failure> {
         Problem::TakesNoArguments => {
             Failure::Usage(format!("--arg is for xacro files, and {name} is a model of MuJoCo's"))
         }
+        Problem::NoFolder(folder) => {
+            Failure::Usage(format!("--package: there is no folder {}", folder.display()))
+        }
     })?;
     note(rendered(&file.findings).trim_end());
     Ok(file)
@@ -156,9 +159,6 @@ fn file(arguments: &RobotArguments, kind: Kind) -> Result<Contents, Failure> {
 /// How the arguments want their file to be read.
 fn options(arguments: &RobotArguments) -> Result<Options, Failure> {
     let packages = pairs(&arguments.package, "--package", "ur_description=../ur_description")?;
-    if let Some((name, folder)) = packages.iter().find(|p| !Path::new(&p.1).is_dir()) {
-        return Err(Failure::Usage(format!("--package {name}={folder}: there is no such folder")));
-    }
     Ok(Options {
         arguments: pairs(&arguments.arg, "--arg", "name=ur5")?,
         as_written: arguments.as_written,

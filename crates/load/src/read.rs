@@ -87,6 +87,8 @@ pub enum Problem {
     Errors(Vec<Finding>),
     /// Arguments were given to a file that is not for xacro.
     TakesNoArguments,
+    /// The folder of a package is none.
+    NoFolder(PathBuf),
 }
 
 /// Reads the file of this name, of this kind.
@@ -94,6 +96,9 @@ pub enum Problem {
 /// # Errors
 /// See [`Problem`].
 pub fn read(name: &str, kind: Kind, options: &Options) -> Result<Contents, Problem> {
+    if let Some((_, folder)) = options.packages.iter().find(|p| !p.1.is_dir()) {
+        return Err(Problem::NoFolder(folder.clone()));
+    }
     let most = if kind == Kind::Bodies { MAX_XML_BYTES } else { MAX_BYTES };
     let text: Arc<str> = contents(name, most).map_err(Problem::Unreadable)?.into();
     let findings = |all| Finding::all(all, name, &text);

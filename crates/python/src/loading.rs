@@ -144,6 +144,9 @@ impl Request {
                 Kind::Usage,
                 format!("arguments are for xacro files, and {name} is a model of MuJoCo's"),
             ),
+            Problem::NoFolder(folder) => {
+                Trouble::new(Kind::Usage, format!("packages: there is no folder {}", folder.display()))
+            }
         })?;
         let mut findings = all_found(&file.findings);
         if file.apart > SEEN {

@@ -24,7 +24,10 @@ pub(in super::super) fn of_other_points(assertions: &mut [Assertion], subjects: 
             let is_beside = end == start
                 || assertions[end].subject == assertions[start].subject
                     && assertions[end].span.start.saturating_sub(assertions[end - 1].span.end) < NEAR;
-            if !is_beside {
+            // A coordinate that comes again is that of the next point.
+            let own = coordinate(&assertions[end], subjects);
+            let comes_again = assertions[start..end].iter().any(|a| coordinate(a, subjects) == own);
+            if !is_beside || comes_again {
                 break;
             }
             end += 1;

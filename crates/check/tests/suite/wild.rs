@@ -69,6 +69,19 @@ fn configurations_behind_words_and_labels() {
     is(&format!("{PLANAR}{numbers}In der Nullstellung ist\n\nx = 0.8 m\n"), &[("x", Standing::Equal)]);
 }
 
+/// Coordinates of the elbow are right where the hand's own stand beside them, and the hand's without its last link where they do not.
+#[test]
+fn coordinates_of_another_point() {
+    let numbers = "a1 = 0.5 m, a2 = 0.3 m.\n\nAt θ1 = 30°, θ2 = 30°:\n\n";
+    let hand = "x = 0.583 m\n\ny = 0.510 m\n\n";
+    let pin = "The pin is at x = 0.433 m, y = 0.250 m.\n";
+    let both = [Standing::Equal, Standing::Equal];
+    let found = read(&format!("{PLANAR}{numbers}{hand}{pin}"), Format::Markdown, None);
+    assert_eq!((all(&found, "x"), all(&found, "y")), (both.to_vec(), both.to_vec()), "{:?}", found.claims);
+    let found = read(&format!("{PLANAR}{numbers}{pin}"), Format::Markdown, None);
+    assert_eq!((all(&found, "x"), all(&found, "y")), (vec![Standing::Wrong], vec![Standing::Wrong]));
+}
+
 #[test]
 fn joints_that_are_counted_from_zero() {
     let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q0 | 0 | a1 | 0 |\n| 2 | q1 | 0 | a2 | 0 |\n\n";
