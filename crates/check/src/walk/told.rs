@@ -126,10 +126,8 @@ impl Walk<'_> {
     fn told_names(&mut self, line: &str) {
         const VERBS: [&str; 7] =
             [" be ", " denote ", " denotes ", " stand for ", " stands for ", " means ", " bezeichnet "];
-        let lower = line.to_lowercase();
-        if lower.len() != line.len() {
-            return;
-        }
+        // Places stay where they are.
+        let lower = line.to_ascii_lowercase();
         for (at, verb) in VERBS.iter().flat_map(|v| lower.match_indices(v)) {
             let before = line[..at].trim_end();
             let name =
@@ -316,10 +314,8 @@ impl Walk<'_> {
 
     /// `lengths 1.0, 0.8, 0.4`
     fn told_lists(&mut self, line: &str) {
-        let lower = line.to_lowercase();
-        if lower.len() != line.len() {
-            return;
-        }
+        // Places stay where they are.
+        let lower = line.to_ascii_lowercase();
         let all = [(List::Lengths, &LENGTHS[..]), (List::Joints, &VALUES[..]), (List::Rates, &RATES[..])];
         for (list, words) in all {
             for word in words {

@@ -158,3 +158,21 @@ fn values_of_points_and_rates_and_of_the_configuration_before() {
     let found = plain(&text.replace("Pour θ1 = 30°, θ2 = 60° :", "Quelque part :"));
     assert_eq!(found.tally().wrong, 0, "{:?}", found.claims);
 }
+
+/// Letters whose small form has another length, as long all together, move no place.
+#[test]
+fn letters_that_change_their_length() {
+    let table = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | a1 | 0 |\n| 2 | q2 | 0 | a2 | 0 |\n\n";
+    for words in [
+        "ẞ denotes q1 + q2 İ = 3 and",
+        "ẞlengths 1.0, 2.0 İ = 2",
+        "ẞ the point is on the x axis of frame 2 at the distance b İ = 1",
+    ] {
+        let text = format!("{table}{words}\n\nx = a1 c1 + a2 c12\n");
+        let options = denavit_check::CheckOptions::default();
+        let format = denavit_reading::document::Format::Markdown;
+        let found = denavit_check::check(&text, format, None, &options).expect("a robot");
+        let x = found.claims.iter().find(|c| c.name == "x").expect("a claim");
+        assert_eq!(x.standing(), denavit_check::Standing::Equal, "{words}");
+    }
+}
