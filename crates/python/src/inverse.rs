@@ -190,7 +190,7 @@ pub fn solve<'py>(
         (answer, nearest.filter(|n| n.within_limits || !wish.limits), left_out)
     });
     let dict = PyDict::new(py);
-    listed(py, &dict, joints, answer.solutions.iter())?;
+    listed(py, &dict, joints, answer.solutions.len(), answer.solutions.iter())?;
     let families = answer.families.iter().map(|f| family(py, f, joints)).collect::<PyResult<Vec<_>>>()?;
     dict.set_item("families", PyList::new(py, families)?)?;
     dict.set_item("complete", answer.is_complete())?;
@@ -212,28 +212,39 @@ pub fn solve<'py>(
     Ok(dict)
 }
 
-/// Solutions side by side.
+/// Solutions side by side, of which there are so many.
 fn listed<'a, 'py>(
     py: Python<'py>,
     dict: &Bound<'py, PyDict>,
     joints: usize,
-    solutions: impl Iterator<Item = &'a Solution> + Clone,
+    count: usize,
+    solutions: impl Iterator<Item = &'a Solution>,
 ) -> PyResult<()> {
-    let q: Vec<f64> = solutions.clone().flat_map(|s| &s.q).copied().collect();
-    let count = solutions.clone().count();
+    let mut q: Vec<f64> = Vec::with_capacity(count * joints);
+    let mut residuals: Vec<f64> = Vec::with_capacity(count);
+    let mut multiplicities: Vec<i64> = Vec::with_capacity(count);
+    let mut within: Vec<bool> = Vec::with_capacity(count);
+    let mut branches: Vec<Bound<'py, PyString>> = Vec::with_capacity(count);
+    // A branch of many solutions is one text; there are few, and in many answers they come in the same order.
+    let mut known: Vec<(&Branch, Bound<'py, PyString>)> = vec![];
+    let mut next = 0;
+    for s in solutions {
+        q.extend_from_slice(&s.q);
+        residuals.push(s.residual);
+        multiplicities.push(i64::from(s.multiplicity));
+        within.push(s.within_limits);
+        let place = (next..known.len()).chain(0..next).find(|&k| *known[k].0 == s.branch);
+        let place = place.unwrap_or_else(|| {
+            known.push((&s.branch, PyString::new(py, &s.branch.to_string())));
+            known.len() - 1
+        });
+        branches.push(known[place].1.clone());
+        next = if place + 1 < known.len() { place + 1 } else { 0 };
+    }
     dict.set_item("solutions", matrix(py, q, count, joints)?)?;
-    let residuals: Vec<f64> = solutions.clone().map(|s| s.residual).collect();
     dict.set_item("residuals", residuals.into_pyarray(py))?;
-    // A branch of many solutions is one text.
-    let mut known: HashMap<&Branch, Bound<'py, PyString>> = HashMap::new();
-    let branches = solutions.clone().map(|s| {
-        let text = known.entry(&s.branch).or_insert_with(|| PyString::new(py, &s.branch.to_string()));
-        text.clone()
-    });
-    dict.set_item("branches", PyList::new(py, branches.collect::<Vec<_>>())?)?;
-    let multiplicities: Vec<i64> = solutions.clone().map(|s| i64::from(s.multiplicity)).collect();
+    dict.set_item("branches", PyList::new(py, branches)?)?;
     dict.set_item("multiplicities", multiplicities.into_pyarray(py))?;
-    let within: Vec<bool> = solutions.map(|s| s.within_limits).collect();
     dict.set_item("within_limits", PyArray1::from_vec(py, within))
 }
 
@@ -292,23 +303,33 @@ pub fn solve_all<'py>(
         (answers, left_out)
     });
     let dict = PyDict::new(py);
-    listed(py, &dict, solver.robot.joints, answers.iter().flat_map(|a| &a.solutions))?;
+    let count = answers.iter().map(|a| a.solutions.len()).sum();
+    listed(py, &dict, solver.robot.joints, count, answers.iter().flat_map(|a| &a.solutions))?;
     let counts: Vec<i64> =
         answers.iter().map(|a| i64::try_from(a.solutions.len()).unwrap_or(i64::MAX)).collect();
     dict.set_item("counts", counts.into_pyarray(py))?;
     let complete: Vec<bool> = answers.iter().map(Answer::is_complete).collect();
     dict.set_item("complete", PyArray1::from_vec(py, complete))?;
+    let mut words: Vec<(&str, Bound<'py, PyString>)> = vec![];
+    let mut word = |status: &'static str| match words.iter().find(|(known, _)| *known == status) {
+        Some((_, word)) => word.clone(),
+        None => {
+            words.push((status, PyString::new(py, status)));
+            words[words.len() - 1].1.clone()
+        }
+    };
     let both = answers.iter().zip(&left_out);
-    let status: Vec<Bound<'py, PyString>> =
-        both.map(|(a, &n)| PyString::intern(py, denavit_wire::inverse::status_within(a, n))).collect();
-    dict.set_item("status", status)?;
+    let status = both.map(|(a, &n)| word(denavit_wire::inverse::status_within(a, n)));
+    dict.set_item("status", PyList::new(py, status.collect::<Vec<_>>())?)?;
     let left_out: Vec<usize> = left_out.into_iter().map(Option::unwrap_or_default).collect();
     dict.set_item("left_out", left_out)?;
-    let families = |a: &Answer| -> PyResult<Bound<'py, PyList>> {
-        let all = a.families.iter().map(|f| family(py, f, solver.robot.joints));
-        PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)
-    };
-    dict.set_item("families", answers.iter().map(families).collect::<PyResult<Vec<_>>>()?)?;
+    // Few poses have families: those that do, by their numbers.
+    let families = PyDict::new(py);
+    for (number, answer) in answers.iter().enumerate().filter(|(_, a)| !a.families.is_empty()) {
+        let all = answer.families.iter().map(|f| family(py, f, solver.robot.joints));
+        families.set_item(number, PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)?)?;
+    }
+    dict.set_item("families", families)?;
     dict.set_item("method", solver.method())?;
     dict.set_item("shape", shape)?;
     Ok(dict)

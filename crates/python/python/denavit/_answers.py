@@ -218,7 +218,10 @@ def answer_of(found: dict[str, Any]) -> Answer:
 def answers_of(found: dict[str, Any]) -> Answers:
     shape = tuple(found.pop("shape"))
     counts = found.pop("counts")
-    found["families"] = [[Family(**family) for family in each] for each in found["families"]]
+    families: list[list[Family]] = [[] for _ in range(len(counts))]
+    for number, each in found["families"].items():
+        families[number] = [Family(**family) for family in each]
+    found["families"] = families
     found["offsets"] = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
     found["complete"] = found["complete"].reshape(shape)
     return Answers(counts=counts.reshape(shape), **found)
