@@ -7,7 +7,7 @@ use denavit::description::Description;
 use denavit::dynamics::{Dynamics, NoNumbers};
 use denavit::geometry::{Transform, Vector};
 use denavit::motion::hand::{Arc, HandChain, HandPath, Line, Orientation, PoseSpline};
-use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, Sampled, Verdict, Wish};
+use denavit::motion::plan::{Held, KnownLimits, PlanError, PlanOptions, Planned, Sampled, Verdict, Wish};
 use denavit::motion::profile::Law;
 use denavit::motion::{MotionError, TorqueLimits, Trajectory};
 use denavit_report::words::Tongue;
@@ -106,7 +106,7 @@ fn trouble(why: &PlanError) -> Trouble {
         PlanError::Limits(_)
         | PlanError::NeededForJerk
         | PlanError::NeededForTorque
-        | PlanError::TorqueAlone
+        | PlanError::LawWithTorque
         | PlanError::NeededForLaw
         | PlanError::LawJumps(_)
         | PlanError::Motion(MotionError::NotPositive(..) | MotionError::Joints { .. }) => Kind::Usage,
@@ -114,13 +114,14 @@ fn trouble(why: &PlanError) -> Trouble {
         | PlanError::OutOfReach
         | PlanError::OutsideLimits { .. }
         | PlanError::TooFast { .. }
+        | PlanError::SlowTorque { .. }
         | PlanError::TooShort { .. } => Kind::Motion,
     };
     let about = match why {
         PlanError::NeededForJerk => "jerk: ",
-        PlanError::NeededForTorque | PlanError::TorqueAlone => "torque: ",
+        PlanError::NeededForTorque | PlanError::LawWithTorque => "torque: ",
         PlanError::NeededForLaw | PlanError::LawJumps(_) => "law: ",
-        PlanError::TooFast { .. } | PlanError::TooShort { .. } => "duration: ",
+        PlanError::TooFast { .. } | PlanError::SlowTorque { .. } | PlanError::TooShort { .. } => "duration: ",
         _ => "",
     };
     Trouble::new(kind, format!("{about}{why}"))
@@ -204,6 +205,7 @@ pub struct Plan {
     sampled: Sampled,
     course: String,
     timing: String,
+    held: Option<Held>,
     verdict: (bool, String),
     followed: Option<Hand>,
     starts: Vec<Start>,
@@ -252,6 +254,7 @@ pub fn plan(d: &Description, way: Way, manner: &Manner) -> Result<Plan, Trouble>
         sampled: sampled.map_err(|why| Trouble::new(Kind::Usage, format!("dt: {why}")))?,
         course: words.course(&planned.course),
         timing: words.timing(&planned.timing, d),
+        held: planned.timing.held,
         verdict: (verdict == Verdict::Whole, words.verdict(verdict)),
         followed,
         starts: planned.alternatives.iter().map(Start::from).collect(),
@@ -283,6 +286,8 @@ impl Plan {
         dict.set_item("duration", self.moving.0.duration())?;
         dict.set_item("course", self.course)?;
         dict.set_item("timing", self.timing)?;
+        let held = self.held.map(|h| (h.instants, h.velocity, h.acceleration, h.jerk, h.torque));
+        dict.set_item("held", held)?;
         dict.set_item("ok", self.verdict.0)?;
         dict.set_item("verdict", self.verdict.1)?;
         dict.set_item("reached", self.followed.as_ref().map_or(1.0, |f| f.reached))?;

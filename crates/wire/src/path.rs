@@ -4,7 +4,7 @@ use crate::pose::Matrix;
 use crate::{Schema, words};
 use denavit::description::Description;
 use denavit::motion::follow::{self, Alternative, EventKind};
-use denavit::motion::plan::Planned;
+use denavit::motion::plan::{self, Planned};
 use denavit_report::words::{Motion as _, Velocity as _};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
@@ -28,6 +28,9 @@ pub struct Path {
     /// What a path of the hand meets, in order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub events: Option<Vec<Event>>,
+    /// The greatest parts of their limits that the motion takes, where jerks or torques are limited along a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<Held>,
     /// What path it is, in words.
     pub path: String,
     /// The part of the hand's path that could be followed, 1 if all.
@@ -55,6 +58,31 @@ pub struct Clearance {
     pub s: f64,
     /// The smallest singular value of the Jacobian there, lengths by the reach.
     pub smallest: f64,
+}
+
+/// The greatest parts of their limits that a motion takes, 1 at the limit.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Held {
+    /// Of accelerations, if they are limited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<f64>,
+    /// At so many instants it was looked at.
+    pub instants: usize,
+    /// Of jerks, if they are limited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
+    /// Of torques, if they are limited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque: Option<f64>,
+    /// Of velocities.
+    pub velocity: f64,
+}
+
+impl From<plan::Held> for Held {
+    fn from(held: plan::Held) -> Self {
+        let plan::Held { instants, velocity, acceleration, jerk, torque } = held;
+        Held { acceleration, instants, jerk, torque, velocity }
+    }
 }
 
 /// A moment of a motion.
@@ -200,6 +228,7 @@ impl Path {
             deviation: followed.map(|f| Deviation { angle: f.turned, position: f.deviation }),
             duration: planned.trajectory.duration(),
             events: followed.map(|f| f.events.iter().map(|e| Event::of(d, e)).collect()),
+            held: planned.timing.held.map(Held::from),
             path: words().course(&planned.course),
             reached: followed.map(|f| f.reached),
             robot: d.name.clone(),

@@ -56,12 +56,12 @@ pub struct PathArguments {
     /// Largest joint accelerations, without unit rad/s² or m/s² (else the robot file's)
     #[arg(long, value_name = "LIMITS")]
     pub acceleration: Option<String>,
-    /// Largest joint jerks, without unit rad/s³ or m/s³
+    /// Largest joint jerks, without unit rad/s³ or m/s³; velocities are needed, too, and accelerations or torques
     #[arg(long, value_name = "LIMITS")]
     pub jerk: Option<String>,
     /// Largest drive torques, in N m (N for slides), of a robot with masses: one for all or one each, or `file` for the efforts of a
-    /// URDF; velocities are needed, too
-    #[arg(long, value_name = "LIMITS", conflicts_with_all = ["jerk", "law"])]
+    /// URDF; velocities are needed, too, and jerks and accelerations may be limited besides
+    #[arg(long, value_name = "LIMITS", conflicts_with = "law")]
     pub torque: Option<String>,
     /// The time law of a move from one configuration to another; needs velocities and accelerations
     #[arg(long, value_enum, requires = "joint")]

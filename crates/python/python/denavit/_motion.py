@@ -48,7 +48,8 @@ class Motions:
             The largest of each joint: one number for all or one each, ``(n,)``, rad/s or m/s and so on; velocities and
             accelerations of the robot's own file where they are not given. Without accelerations the law is a quintic.
         torque
-            The largest torque of each drive, N·m (N for slides), of a robot with masses; needs velocities.
+            The largest torque of each drive, N·m (N for slides), of a robot with masses; needs velocities, and goes with
+            accelerations and jerks.
         duration
             Seconds for the whole path, no less than the limits allow.
         dt

@@ -67,6 +67,17 @@ class Deviation(NamedTuple):
     angle: float
 
 
+class Held(NamedTuple):
+    """The greatest parts of their limits that a motion takes, 1 at the limit; None of what is not limited."""
+
+    #: At so many instants it was looked at, from the start to the end, evenly.
+    instants: int
+    velocity: float
+    acceleration: Optional[float]
+    jerk: Optional[float]
+    torque: Optional[float]
+
+
 class Start(NamedTuple):
     """A configuration in which a path can start, and what comes of it."""
 
@@ -104,6 +115,8 @@ class Motion:
     course: str
     #: How it was timed, in words.
     timing: str
+    #: What it takes of its limits, where jerks or torques are limited along a path.
+    held: Optional[Held]
     #: Whether it goes to the end of the path, within the limits.
     ok: bool
     #: The same in words.
@@ -141,5 +154,6 @@ def motion_of(found: dict[str, Any]) -> Motion:
     found["events"] = [Event(**event) for event in found["events"]]
     found["starts"] = [Start(*start) for start in found["starts"]]
     found["deviation"] = None if found["deviation"] is None else Deviation(*found["deviation"])
+    found["held"] = None if found["held"] is None else Held(*found["held"])
     found["clearance"] = None if found["clearance"] is None else Clearance(*found["clearance"])
     return Motion(_moving=found.pop("moving"), **found)

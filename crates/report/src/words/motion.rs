@@ -3,7 +3,7 @@
 use denavit::description::Description;
 use denavit::description::JointKind;
 use denavit::motion::follow::{Event, Jump};
-use denavit::motion::plan::{Course, Timing, Verdict};
+use denavit::motion::plan::{Course, Held, Timing, Verdict};
 
 /// What is said of motions.
 pub trait Motion {
@@ -15,6 +15,9 @@ pub trait Motion {
 
     /// How a path was timed.
     fn timing(&self, timing: &Timing, description: &Description) -> String;
+
+    /// What a motion takes of its limits.
+    fn held(&self, held: &Held) -> String;
 
     /// What happens on the way; the path is the subject, or a joint.
     fn event(&self, event: &Event, description: &Description) -> String;

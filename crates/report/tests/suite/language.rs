@@ -472,6 +472,8 @@ fn motions_and_axes() {
         TimingLaw::WithinTorques { accelerations: true, fastest: true },
         TimingLaw::WithinTorques { accelerations: false, fastest: false },
         TimingLaw::JerkLimited,
+        TimingLaw::WithinJerksAndTorques { accelerations: true },
+        TimingLaw::WithinJerksAndTorques { accelerations: false },
         TimingLaw::Fastest,
         TimingLaw::Together(Law::Cubic),
         TimingLaw::Together(Law::DoubleS),
@@ -480,9 +482,11 @@ fn motions_and_axes() {
     ];
     for by in laws {
         for slowed_to in [None, Some(4.0)] {
-            both(&|w| w.timing(&Timing { by, slowed_to }, &ur5));
+            both(&|w| w.timing(&Timing { by, slowed_to, held: None }, &ur5));
         }
     }
+    let held = Held { instants: 101, velocity: 0.5, acceleration: None, jerk: Some(1.0), torque: Some(0.75) };
+    both(&|w| w.held(&held));
     for course in [
         Course::Move,
         Course::Straight(3),

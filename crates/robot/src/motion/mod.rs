@@ -4,7 +4,7 @@
 //!   arrive together ([`profile::synchronised`]).
 //! - [`path`]: geometric paths q(s) through way-points: splines, straight lines with blends ([`JointPath`]).
 //! - [`timing`]: the fastest timing of a path under velocity, acceleration and torque limits ([`TimeOptimal`]).
-//! - [`jerk_limited`]: a fast timing of a path under velocity, acceleration and jerk limits ([`JerkLimited`]).
+//! - [`jerk_limited`]: a fast timing of a path under velocity, acceleration, jerk and torque limits ([`JerkLimited`]).
 //! - [`hand`]: paths of the hand: lines, arcs, splines.
 //! - [`follow`]: the joints along a path of the hand, and what stands in the way.
 //! - [`plan`]: from a wish to a timed motion, by all of these.
@@ -31,7 +31,7 @@ pub use jerk_limited::JerkLimited;
 pub use limits::{Limits, Range};
 pub use path::JointPath;
 pub use state_to_state::move_within_limits;
-pub use timing::{TimeOptimal, TorqueLimits};
+pub use timing::{TimeOptimal, TimedPath, TorqueLimits};
 pub use trajectory::{JointState, Trajectory};
 
 /// No more samples or grid points than this are made at once.

@@ -29,6 +29,7 @@ mod mechanism;
 mod members;
 mod mjcf;
 mod motion_jerk;
+mod motion_jerk_torques;
 mod motion_plan;
 mod motion_profiles;
 mod motion_timing;

@@ -6,6 +6,7 @@ use denavit::description::read_toml;
 use denavit::dynamics::{Dynamics, drive_torques, gravity_torques};
 use denavit::motion::path::{Ends, cubic_spline};
 use denavit::motion::plan::{KnownLimits, PlanError, PlanOptions, Planned, TimingLaw, Wish};
+use denavit::motion::profile::Law;
 use denavit::motion::timing::Grid;
 use denavit::motion::{JointPath, Limits, MotionError, TimeOptimal, TorqueLimits, Trajectory};
 
@@ -153,7 +154,12 @@ fn torque_limits_are_planned_with() {
     };
     assert!(plan(&known(Some(vec![5.0; 3]), None)).is_ok_and(|t| t > 0.0 && t < 1.0));
     assert_eq!(plan(&known(None, None)), Err(PlanError::NeededForTorque));
-    assert_eq!(plan(&known(Some(vec![5.0; 3]), Some(vec![1.0; 3]))), Err(PlanError::TorqueAlone));
+    assert_eq!(plan(&known(None, Some(vec![5.0; 3]))), Err(PlanError::NeededForTorque));
+    assert!(plan(&known(Some(vec![5.0; 3]), Some(vec![50.0; 3]))).is_ok_and(|t| t > 0.6));
+    let law = PlanOptions { law: Some(Law::Cubic), ..PlanOptions::default() };
+    let wish = Wish::Joints(vec![vec![0.0; 3], vec![0.4, -0.3, 0.2]]);
+    let refused = Planned::new(&d, &robot, wish, &known(Some(vec![5.0; 3]), None), &law);
+    assert_eq!(refused.map(|_| ()), Err(PlanError::LawWithTorque));
     let short = TorqueLimits::symmetric(arm.clone(), &[1.0; 2]);
     assert!(matches!(short, Err(MotionError::Joints { expected: 3, found: 2, .. })));
     assert!(matches!(

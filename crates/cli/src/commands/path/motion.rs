@@ -31,7 +31,7 @@ pub fn plan(
     Planned::new(description, robot, wish, limits, &options).map_err(|why| match &why {
         PlanError::Unprepared(why) => unprepared(description, &arguments.robot.robot, why),
         PlanError::Limits(_) => Failure::Usage(why.to_string()),
-        PlanError::NeededForTorque | PlanError::TorqueAlone => Failure::Usage(format!("--torque: {why}")),
+        PlanError::NeededForTorque | PlanError::LawWithTorque => Failure::Usage(format!("--torque: {why}")),
         PlanError::NeededForJerk => Failure::Usage(format!("--jerk: {why}")),
         PlanError::LawJumps(_) => Failure::Usage(format!(
             "--law: {why}; `--law jerk-limited` and `--law quintic` keep --jerk, or leave it away"
@@ -40,6 +40,7 @@ pub fn plan(
         PlanError::TooFast { asked, .. } | PlanError::TooShort { asked, .. } => {
             Failure::No(format!("--duration {asked}: {why}"))
         }
+        PlanError::SlowTorque { .. } => Failure::No(format!("--duration: {why}")),
         PlanError::Motion(_) | PlanError::OutOfReach | PlanError::OutsideLimits { .. } => {
             Failure::No(why.to_string())
         }

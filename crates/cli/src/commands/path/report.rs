@@ -50,6 +50,9 @@ pub fn text(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
 /// Timing, events, alternatives.
 pub fn remarks(d: &Description, planned: &Planned) -> String {
     let mut text = format!("  timing: {}\n", words().timing(&planned.timing, d));
+    if let Some(held) = &planned.timing.held {
+        text += &format!("  {}\n", words().held(held));
+    }
     let Some(followed) = &planned.followed else { return text };
     for event in &followed.events {
         text += &format!("  {}\n", self::event(d, event));

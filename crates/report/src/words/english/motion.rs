@@ -5,7 +5,7 @@ use crate::words::{Motion, Velocity};
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
-use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
+use denavit::motion::plan::{Course, Held, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
 use denavit::quantity::{decimals, rate, reading};
 use denavit::velocity::Place;
@@ -50,6 +50,10 @@ impl Motion for English {
                 format!("{how} within {what} limits")
             }
             TimingLaw::JerkLimited => "fast, within velocity, acceleration and jerk limits".into(),
+            TimingLaw::WithinJerksAndTorques { accelerations } => {
+                let what = if accelerations { "velocity, acceleration, jerk" } else { "velocity, jerk" };
+                format!("fast, within {what} and torque limits")
+            }
             TimingLaw::Fastest => "the fastest within velocity, acceleration and jerk limits".into(),
             TimingLaw::Together(law) => {
                 let law = match law {
@@ -75,6 +79,20 @@ impl Motion for English {
             ),
         };
         words + &slowed
+    }
+
+    fn held(&self, held: &Held) -> String {
+        let shares = [
+            ("velocities", Some(held.velocity)),
+            ("accelerations", held.acceleration),
+            ("jerks", held.jerk),
+            ("torques", held.torque),
+        ];
+        let part = |(what, share): (&str, Option<f64>)| {
+            share.map(|share| format!("{what} at {} %", decimals(100.0 * share, 2)))
+        };
+        let parts: Vec<String> = shares.into_iter().filter_map(part).collect();
+        format!("at {} instants at most {} of their limits", held.instants, parts.join(", "))
     }
 
     fn event(&self, event: &Event, description: &Description) -> String {

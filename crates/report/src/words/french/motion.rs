@@ -5,7 +5,7 @@ use crate::words::{Motion, Velocity};
 use denavit::description::{Description, JointKind};
 use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
-use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
+use denavit::motion::plan::{Course, Held, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
 use denavit::quantity::{decimals, rate, reading};
 use denavit::velocity::Place;
@@ -55,6 +55,14 @@ impl Motion for French {
             TimingLaw::JerkLimited => {
                 say!("rapide, dans les limites de vitesse, d'accélération et de jerk")
             }
+            TimingLaw::WithinJerksAndTorques { accelerations } => {
+                let what = if accelerations {
+                    "de vitesse, d'accélération, de jerk"
+                } else {
+                    "de vitesse, de jerk"
+                };
+                say!("rapide, dans les limites {what} et de couple")
+            }
             TimingLaw::Fastest => {
                 say!("la plus rapide dans les limites de vitesse, d'accélération et de jerk")
             }
@@ -82,6 +90,20 @@ impl Motion for French {
             ),
         };
         words + &slowed
+    }
+
+    fn held(&self, held: &Held) -> String {
+        let shares = [
+            ("les vitesses", Some(held.velocity)),
+            ("les accélérations", held.acceleration),
+            ("les jerks", held.jerk),
+            ("les couples", held.torque),
+        ];
+        let part = |(what, share): (&str, Option<f64>)| {
+            share.map(|share| say!("{what} à {} %", decimals(100.0 * share, 2)))
+        };
+        let parts: Vec<String> = shares.into_iter().filter_map(part).collect();
+        say!("à {} instants, au plus {} de leurs limites", held.instants, parts.join(", "))
     }
 
     fn event(&self, event: &Event, description: &Description) -> String {

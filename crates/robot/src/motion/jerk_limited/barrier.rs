@@ -1,10 +1,12 @@
 //! The optimisation: Newton's method with logarithmic barriers.
 //!
 //! Unknowns are the control points of x(τ). Limits are imposed at the three Gauss points of each interval, of which the
-//! duration is the sum.
+//! duration is the sum. Where friction grows with √x a torque limit is, like that of the jerk, bounded from inside by a
+//! tangent at each step.
 
 use super::banded::{self, Pentadiagonal};
 use super::spline::{Form, Spline, forms};
+use super::torques::{Loads, Row};
 use super::warped::{chain, warp};
 use crate::motion::error::{MotionError, finite};
 use crate::motion::limits::{Limits, Range};
@@ -28,6 +30,14 @@ struct Place {
     linear: Vec<Form>,
     /// Forms that are at most 1/√x in magnitude: jerks.
     jerk: Vec<Form>,
+    /// At most 1: torques.
+    torques: Vec<Rooted>,
+}
+
+/// A form, and how much of √x goes with it.
+struct Rooted {
+    form: Form,
+    root: f64,
 }
 
 /// The limits on a grid, and the fastest motion within them as far as it is found.
@@ -44,9 +54,10 @@ impl Problem {
         path: &P,
         limits: &Limits,
         jerk: &[f64],
+        loads: Option<&Loads<'_>>,
         grid: Vec<f64>,
     ) -> Result<Self, MotionError> {
-        let places = places(path, limits, jerk, &grid)?;
+        let places = places(path, limits, jerk, loads, &grid)?;
         let c = vec![constant(&places)?; grid.len() + 1];
         Ok(Self { places, spline: Spline { grid, c }, start: 1.0 })
     }
@@ -72,15 +83,16 @@ impl Problem {
         rescale(&mut self.places, 1.0 / scale);
     }
 
-    /// Tightens the limits of each interval by the ratios of velocity, acceleration and jerk to their limits there, and
-    /// slows the motion down to hold them.
-    pub(super) fn tighten(&mut self, ratios: &[[f64; 3]]) {
+    /// Tightens the limits of each interval by the ratios of velocity, acceleration, jerk and torque to their limits there,
+    /// and slows the motion down to hold them.
+    pub(super) fn tighten(&mut self, ratios: &[[f64; 4]]) {
         for place in &mut self.places {
-            let [v, a, j] = ratios[place.interval].map(|r| 1.0 + 1.05 * (r - 1.0).max(0.0));
+            let [v, a, j, t] = ratios[place.interval].map(|r| 1.0 + 1.05 * (r - 1.0).max(0.0));
             let (velocity, accelerations) = place.linear.split_at_mut(1);
             velocity.iter_mut().flatten().for_each(|f| *f *= v * v);
             accelerations.iter_mut().flatten().for_each(|f| *f *= a);
             place.jerk.iter_mut().flatten().for_each(|f| *f *= j);
+            place.torques.iter_mut().for_each(|r| r.multiply(t, t));
         }
         let most = self.places.iter().map(|p| p.slowness(&self.spline.c)).fold(1.0, f64::max);
         let slower = 0.98 / (most * most);
@@ -90,13 +102,37 @@ impl Problem {
 }
 
 impl Place {
-    /// The factor by which a motion must be slowed down to hold the limits here.
+    /// The factor by which a motion must be slowed down for the limits to hold here at it and at all that are slower.
     fn slowness(&self, c: &[f64]) -> f64 {
         let c = &c[self.interval..];
         let linear = self.linear.iter().map(|f| dot(f, c).max(0.0).sqrt()).fold(0.0, f64::max);
         let root = dot(&self.x, c).sqrt();
+        let torques = self.torques.iter().map(|r| slowness(dot(&r.form, c), r.root * root));
+        let linear = torques.fold(linear, f64::max);
         self.jerk.iter().map(|f| (dot(f, c).abs() * root).cbrt()).fold(linear, f64::max)
     }
+}
+
+impl Rooted {
+    /// The row of a torque at a point with these forms x and u.
+    fn new([a, b, k]: Row, x: &Form, u: &Form) -> Self {
+        Rooted { form: std::array::from_fn(|i| a * u[i] + b * x[i]), root: k }
+    }
+
+    fn at(&self, c: &[f64], root: f64) -> f64 {
+        dot(&self.form, c) + self.root * root
+    }
+
+    fn multiply(&mut self, form: f64, root: f64) {
+        self.form.iter_mut().for_each(|f| *f *= form);
+        self.root *= root;
+    }
+}
+
+/// The factor z of which a y² + k y ≤ 1 for all y from 0 to 1/z: at 1/z it is 1 for the first time. 0 if it never is.
+fn slowness(a: f64, k: f64) -> f64 {
+    let square = k * k + 4.0 * a;
+    if square < 0.0 { 0.0 } else { ((k + square.sqrt()) / 2.0).max(0.0) }
 }
 
 /// The limits in other units of x.
@@ -104,6 +140,7 @@ fn rescale(places: &mut [Place], scale: f64) {
     for place in places {
         place.linear.iter_mut().flatten().for_each(|f| *f *= scale);
         place.jerk.iter_mut().flatten().for_each(|f| *f *= scale * scale.sqrt());
+        place.torques.iter_mut().for_each(|r| r.multiply(scale, scale.sqrt()));
     }
 }
 
@@ -111,6 +148,7 @@ fn places<P: JointPath>(
     path: &P,
     limits: &Limits,
     jerk: &[f64],
+    loads: Option<&Loads<'_>>,
     grid: &[f64],
 ) -> Result<Vec<Place>, MotionError> {
     let mut point = PathPoint::zeros(path.dof());
@@ -119,14 +157,20 @@ fn places<P: JointPath>(
         let h = grid[interval + 1] - grid[interval];
         for (at, weight) in GAUSS {
             let warped = warp(grid[interval] + at * h);
-            path.eval_into(warped[0] * path.end(), Side::Behind, &mut point);
+            let s = warped[0] * path.end();
+            path.eval_into(s, Side::Behind, &mut point);
             chain(&mut point, warped, path.end());
             for list in [&point.dq, &point.ddq, &point.dddq] {
                 finite("derivatives of the path", list)?;
             }
             let f = forms(grid, interval, at);
             let (linear, jerk) = bounds(&point, &f, limits, jerk);
-            places.push(Place { interval, weight: weight * h, x: f[0], linear, jerk });
+            let torques = match loads {
+                Some(loads) => loads.rows(interval, s, &point)?,
+                None => vec![],
+            };
+            let torques = torques.into_iter().map(|row| Rooted::new(row, &f[0], &f[1])).collect();
+            places.push(Place { interval, weight: weight * h, x: f[0], linear, jerk, torques });
         }
     }
     Ok(places)
@@ -148,8 +192,9 @@ fn bounds(
         }
         let Range { lower, upper } = limits.acceleration()[joint];
         let acceleration: Form = std::array::from_fn(|k| p1 * u[k] + p2 * x[k]);
-        linear.push(acceleration.map(|a| a / upper));
-        linear.push(acceleration.map(|a| a / lower));
+        for limit in [upper, lower].into_iter().filter(|limit| limit.is_finite()) {
+            linear.push(acceleration.map(|a| a / limit));
+        }
         jerks.push(std::array::from_fn(|k| (p1 * du[k] + 3.0 * p2 * u[k] + p3 * x[k]) / most));
     }
     (linear, jerks)
@@ -165,6 +210,9 @@ fn constant(places: &[Place]) -> Result<f64, MotionError> {
         }
         for f in &place.jerk {
             most = most.max(sum(f).abs().powf(2.0 / 3.0));
+        }
+        for r in &place.torques {
+            most = most.max(slowness(sum(&r.form), r.root).powi(2));
         }
     }
     match most {
@@ -191,11 +239,13 @@ fn barrier(places: &[Place], c: &[f64], t: f64) -> f64 {
     let mut logarithms: f64 = c.iter().map(|c| c.ln()).sum();
     for p in places {
         let c = &c[p.interval..];
-        let room = 1.0 / dot(&p.x, c).sqrt();
+        let root = dot(&p.x, c).sqrt();
+        let room = 1.0 / root;
         let linear = p.linear.iter().map(|f| 1.0 - dot(f, c));
         let jerk = p.jerk.iter().map(|f| room * room - dot(f, c).powi(2));
+        let torques = p.torques.iter().map(|r| 1.0 - r.at(c, root));
         let (mut product, mut count) = (1.0, 0);
-        for slack in linear.chain(jerk) {
+        for slack in linear.chain(jerk).chain(torques) {
             if slack.is_nan() || slack <= 0.0 {
                 return f64::INFINITY;
             }
@@ -212,7 +262,8 @@ fn barrier(places: &[Place], c: &[f64], t: f64) -> f64 {
 }
 
 fn optimise(places: &[Place], c: &mut [f64], start: f64, gap: f64) {
-    let limits: usize = places.iter().map(|p| p.linear.len() + 2 * p.jerk.len()).sum::<usize>() + c.len();
+    let of = |p: &Place| p.linear.len() + 2 * p.jerk.len() + p.torques.len();
+    let limits: usize = places.iter().map(of).sum::<usize>() + c.len();
     let mut t = start * limits as f64 / duration(places, c);
     let mut value = barrier(places, c, t);
     for _ in 0..MAX_STEPS {
@@ -275,6 +326,16 @@ fn derivatives(places: &[Place], c: &[f64], t: f64) -> (Pentadiagonal, Vec<f64>)
                 let inverse = 1.0 / (root - sign * y);
                 let form = std::array::from_fn(|k| sign * f[k] + fall * p.x[k]);
                 add(&mut g, &mut m, &form, inverse, inverse * inverse);
+            }
+        }
+        for r in &p.torques {
+            let inverse = 1.0 / (1.0 - r.at(here, 1.0 / root));
+            let half = 0.5 * r.root * root;
+            let form = std::array::from_fn(|k| r.form[k] + half * p.x[k]);
+            add(&mut g, &mut m, &form, inverse, inverse * inverse);
+            if r.root < 0.0 {
+                // What falls with the root is convex; where it grows with it its tangent is above it.
+                add(&mut g, &mut m, &p.x, 0.0, -0.5 * half / x * inverse);
             }
         }
         let i = p.interval;

@@ -36,6 +36,11 @@ pub(super) fn forms(grid: &[f64], i: usize, place: f64) -> [Form; 3] {
 }
 
 impl Spline {
+    /// Slows the motion down by a factor.
+    pub(super) fn slow(&mut self, factor: f64) {
+        self.c.iter_mut().for_each(|c| *c *= factor.powi(-2));
+    }
+
     /// x, u = x'/2 and u' at a point of interval `i`.
     pub(super) fn at(&self, i: usize, place: f64) -> [f64; 3] {
         let c = &self.c[i..i + 3];

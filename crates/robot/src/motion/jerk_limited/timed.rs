@@ -1,6 +1,7 @@
 //! A path with a timing of which the acceleration is continuous.
 
 use super::spline::Spline;
+use super::torques::Table;
 use super::warped::{chain, warp};
 use crate::motion::error::MotionError;
 use crate::motion::limits::Limits;
@@ -26,12 +27,11 @@ pub struct SmoothTimedPath<P> {
 }
 
 impl<P: JointPath> SmoothTimedPath<P> {
-    /// The motion of the spline, slower by a factor.
-    pub(super) fn new(path: P, mut x: Spline, slowed: f64) -> Result<Self, MotionError> {
+    /// The motion of the spline, which was slowed down by a factor.
+    pub(super) fn new(path: P, x: Spline, slowed: f64) -> Result<Self, MotionError> {
         if !slowed.is_finite() {
             return Err(MotionError::Stuck { s: 0.0 });
         }
-        x.c.iter_mut().for_each(|c| *c *= slowed.powi(-2));
         let mut timed = Self { path, x, time: vec![], slowed };
         let mut t = 0.0;
         timed.time.push(t);
@@ -90,7 +90,18 @@ impl<P: JointPath> SmoothTimedPath<P> {
 
 /// The point of the path, derivatives by τ, and x, u, u' there.
 fn point<P: JointPath>(path: &P, x: &Spline, i: usize, place: f64, side: Side) -> (PathPoint, [f64; 3]) {
-    let warped = warp(x.grid[i] + place * (x.grid[i + 1] - x.grid[i]));
+    (point_of_path(path, &x.grid, i, place, side).1, x.at(i, place))
+}
+
+/// The parameter s at a place of interval `i`, and the point of the path there, with derivatives by τ.
+pub(super) fn point_of_path<P: JointPath>(
+    path: &P,
+    grid: &[f64],
+    i: usize,
+    place: f64,
+    side: Side,
+) -> (f64, PathPoint) {
+    let warped = warp(grid[i] + place * (grid[i + 1] - grid[i]));
     let s = warped[0] * path.end();
     // Rounding must not carry a grid point on a knot over to the wrong side.
     let knots = path.knots();
@@ -99,33 +110,41 @@ fn point<P: JointPath>(path: &P, x: &Spline, i: usize, place: f64, side: Side) -
     let mut point = PathPoint::zeros(path.dof());
     path.eval_into(s, side, &mut point);
     chain(&mut point, warped, path.end());
-    (point, x.at(i, place))
+    (s, point)
 }
 
-/// The greatest ratios of velocity, acceleration and jerk to their limits in each interval, by so many points of it.
+/// The place of one of so many points in an interval, and the side from which the path is looked at there.
+pub(super) fn checked(check: usize, checks: usize) -> (f64, Side) {
+    let side = if check + 1 == checks { Side::Before } else { Side::Behind };
+    (check as f64 / (checks - 1) as f64, side)
+}
+
+/// The greatest ratios of velocity, acceleration, jerk and torque to their limits in each interval, by so many points of
+/// it; the torque without what is needed at rest to what is left beside that.
 pub(super) fn ratios<P: JointPath>(
     path: &P,
     x: &Spline,
     limits: &Limits,
     jerk: &[f64],
+    table: Option<&Table>,
     checks: usize,
-) -> Vec<[f64; 3]> {
+) -> Vec<[f64; 4]> {
     let ratio = |i: usize, check: usize| {
-        let place = check as f64 / (checks - 1) as f64;
-        let side = if check + 1 == checks { Side::Before } else { Side::Behind };
+        let (place, side) = checked(check, checks);
         let (point, [x, u, du]) = point(path, x, i, place, side);
-        let mut most = [0.0f64; 3];
+        let torque = table.map_or(0.0, |t| t.share(i * checks + check, u, x));
+        let mut most = [0.0, 0.0, 0.0, torque];
         for (joint, third) in jerk_of(&point, x, u, du).enumerate() {
             let v = limits.velocity()[joint].share(point.dq[joint] * x.sqrt());
             let a = limits.acceleration()[joint].share(point.dq[joint] * u + point.ddq[joint] * x);
             let j = third.abs() / jerk[joint];
-            most = [most[0].max(v), most[1].max(a), most[2].max(j)];
+            most = [f64::max(most[0], v), f64::max(most[1], a), f64::max(most[2], j), torque];
         }
         most
     };
     (0..x.grid.len() - 1)
         .map(|i| {
-            let checked: Vec<[f64; 3]> = (0..checks).map(|check| ratio(i, check)).collect();
+            let checked: Vec<[f64; 4]> = (0..checks).map(|check| ratio(i, check)).collect();
             std::array::from_fn(|k| peak(&checked.iter().map(|r| r[k]).collect::<Vec<_>>()))
         })
         .collect()
@@ -138,9 +157,11 @@ fn peak(values: &[f64]) -> f64 {
     values.windows(3).map(rise).fold(greatest, f64::max)
 }
 
-/// By how much a motion must be slowed down for no ratio to be above 1.
-pub(super) fn slowness(ratios: &[[f64; 3]]) -> f64 {
-    ratios.iter().map(|[v, a, j]| v.max(a.sqrt()).max(j.cbrt())).fold(1.0, f64::max)
+/// By how much a motion must be slowed down for no ratio to be above 1: enough for all but torques of which a part grows
+/// with the speed, where it is a step on the way.
+pub(super) fn slowness(ratios: &[[f64; 4]], is_viscous: bool) -> f64 {
+    let torque = |t: f64| if is_viscous { t } else { t.sqrt() };
+    ratios.iter().map(|[v, a, j, t]| v.max(a.sqrt()).max(j.cbrt()).max(torque(*t))).fold(1.0, f64::max)
 }
 
 /// (p' u' + 3 p'' u + p''' x) √x

@@ -18,8 +18,17 @@ pub enum PlanError {
     NeededForJerk,
     /// Torque limits do not help without velocities of all joints.
     NeededForTorque,
-    /// Torque limits are kept by the fastest timing of a path, and neither by laws nor by timings with jerk limits.
-    TorqueAlone,
+    /// Torque limits are kept by timings of a path, and not by time laws.
+    LawWithTorque,
+    /// More slowly a torque is beyond its limit, as friction that grows with the speed no longer helps.
+    SlowTorque {
+        /// The joint's variable.
+        joint: String,
+        /// When, seconds.
+        t: f64,
+        /// The part of the limit that is needed: more than 1.
+        share: f64,
+    },
     /// A time law is asked for, which needs velocities and accelerations of all joints.
     NeededForLaw,
     /// The law's acceleration jumps, which no jerk limit allows.
@@ -72,7 +81,13 @@ impl fmt::Display for PlanError {
                 write!(f, "velocities and accelerations of all joints are needed too")
             }
             Self::NeededForTorque => write!(f, "velocities of all joints are needed too"),
-            Self::TorqueAlone => write!(f, "time laws and jerk limits do not go with torque limits"),
+            Self::LawWithTorque => write!(f, "time laws do not go with torque limits"),
+            Self::SlowTorque { joint, t, share } => write!(
+                f,
+                "so slowly {joint} needs {} % of its torque at {} s",
+                decimals(100.0 * share, 2),
+                decimals(*t, 4)
+            ),
             Self::LawJumps(law) => {
                 let law = if *law == Law::Cubic { "cubic" } else { "trapezoidal" };
                 write!(f, "the acceleration of the {law} law jumps, and no jerk limit holds there")

@@ -1,7 +1,7 @@
 //! Paths of the hand.
 
 use super::known::Known;
-use super::timed::{Still, Timed, by_quintic, fastest, over_duration};
+use super::timed::{Still, Timed, by_quintic, fastest};
 use super::{Course, PlanError, PlanOptions, Planned, TimingLaw};
 use crate::description::Description;
 use crate::mechanism::Robot;
@@ -38,10 +38,10 @@ pub(super) fn plan(
         match &limits.all {
             Some(all) if all.jerk().is_some() => {
                 let smooth = smooth(robot, path, &mut followed)?;
-                over_duration(fastest(smooth, all, None)?, options.duration)?
+                fastest(description, smooth, (all, limits.torque), options.duration)?
             }
             Some(all) => {
-                over_duration(fastest(followed.joints.clone(), all, limits.torque)?, options.duration)?
+                fastest(description, followed.joints.clone(), (all, limits.torque), options.duration)?
             }
             None => {
                 let usual = (path.length() * followed.reached / options.speed).max(0.5);

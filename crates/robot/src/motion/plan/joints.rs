@@ -27,7 +27,7 @@ pub(super) fn plan(
         (Some(all), [a, b]) if limits.torque.is_none() => {
             over_duration(between([a, b], all, options.law)?, options.duration)?
         }
-        (Some(all), _) => over_duration(fastest(path()?, all, limits.torque)?, options.duration)?,
+        (Some(all), _) => fastest(description, path()?, (all, limits.torque), options.duration)?,
     };
     if let Some(j) = outside(description, points) {
         let joint = description.variables()[j].symbol.name().to_string();

@@ -63,18 +63,16 @@ impl KnownLimits {
             return Err(PlanError::Limits(MotionError::Joints { what, expected: n, found }));
         }
         let all = match (velocity, self.acceleration.as_ref(), torque) {
-            (Some(v), Some(a), _) if n > 0 => {
-                let limits = Limits::symmetric(v, a);
-                let limits = match jerk {
-                    Some(jerk) => limits.and_then(|l| l.with_jerk(jerk)),
-                    None => limits,
-                };
-                Some(limits.map_err(PlanError::Limits)?)
-            }
+            (Some(v), Some(a), _) if n > 0 => Some(Limits::symmetric(v, a)),
             // Torques bound accelerations.
-            (Some(v), None, Some(_)) if n > 0 => Some(Limits::of_velocity(v).map_err(PlanError::Limits)?),
+            (Some(v), None, Some(_)) if n > 0 => Some(Limits::of_velocity(v)),
             _ => None,
         };
+        let all = all.map(|limits| match jerk {
+            Some(jerk) => limits.and_then(|l| l.with_jerk(jerk)),
+            None => limits,
+        });
+        let all = all.transpose().map_err(PlanError::Limits)?;
         Ok(Known { velocity, jerk, torque, all })
     }
 }
@@ -84,6 +82,6 @@ pub(super) struct Known<'a> {
     pub velocity: Option<&'a [f64]>,
     pub jerk: Option<&'a [f64]>,
     pub torque: Option<&'a TorqueLimits>,
-    /// Velocities and accelerations, perhaps jerks, if velocities and accelerations are known; velocities alone with torques.
+    /// Velocities and accelerations, perhaps jerks, if velocities and accelerations are known; no accelerations with torques.
     pub all: Option<Limits>,
 }

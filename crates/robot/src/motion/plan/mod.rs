@@ -6,16 +6,19 @@
 //! | velocity, acceleration, jerk | fast, within all three |
 //! | velocity, acceleration | time-optimal, or by the law that is asked for |
 //! | velocity, torque | time-optimal within these, and accelerations where they are known; fast, with viscous friction |
+//! | velocity, torque, jerk | fast, within these, and accelerations where they are known |
 //! | less | a quintic law, slower where velocities are limited |
 
 mod error;
 mod hand;
+mod held;
 mod joints;
 mod known;
 mod sampled;
 mod timed;
 
 pub use error::PlanError;
+pub use held::Held;
 pub use known::KnownLimits;
 pub use sampled::{Sample, Sampled};
 
@@ -107,6 +110,8 @@ pub struct Timing {
     pub by: TimingLaw,
     /// The duration in seconds, if it is longer than the law needs because that was asked for.
     pub slowed_to: Option<f64>,
+    /// What of the limits the motion takes, where jerks or torques are limited along a path.
+    pub held: Option<Held>,
 }
 
 /// The law of a timing.
@@ -125,6 +130,11 @@ pub enum TimingLaw {
     },
     /// Fast along the path within velocity, acceleration and jerk limits.
     JerkLimited,
+    /// Fast along the path within velocity, jerk and torque limits.
+    WithinJerksAndTorques {
+        /// Whether within acceleration limits, too.
+        accelerations: bool,
+    },
     /// The fastest between two configurations within velocity, acceleration and jerk limits.
     Fastest,
     /// A law for all joints together, within the limits.
@@ -188,7 +198,7 @@ impl Planned {
         let limits = limits.of_joints(n)?;
         match limits.torque {
             Some(_) if limits.velocity.is_none() => return Err(PlanError::NeededForTorque),
-            Some(_) if limits.jerk.is_some() || options.law.is_some() => return Err(PlanError::TorqueAlone),
+            Some(_) if options.law.is_some() => return Err(PlanError::LawWithTorque),
             _ => {}
         }
         if limits.all.is_none() {

@@ -1,39 +1,65 @@
 //! Timings of a path.
 
+use super::held::{TimedAlongPath, held};
 use super::{PlanError, Timing, TimingLaw};
 use crate::description::Description;
 use crate::motion::{
     InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, TorqueLimits, Trajectory,
 };
 
+/// A torque that is more than this part of its limit is beyond it; so much is measured between the points of a grid.
+const BEYOND: f64 = 1.002;
+
 /// A motion, and how it was timed.
 pub(super) type Timed = (Box<dyn Trajectory>, Timing);
 
 impl From<TimingLaw> for Timing {
     fn from(by: TimingLaw) -> Self {
-        Timing { by, slowed_to: None }
+        Timing { by, slowed_to: None, held: None }
     }
 }
 
-/// The fastest timing of a path.
+/// The fastest timing of a path, or one over the duration asked for.
 pub(super) fn fastest<P: JointPath + 'static>(
+    description: &Description,
     path: P,
-    limits: &Limits,
-    torques: Option<&TorqueLimits>,
+    (limits, torques): (&Limits, Option<&TorqueLimits>),
+    asked: Option<f64>,
 ) -> Result<Timed, PlanError> {
+    let accelerations = limits.acceleration().iter().all(|a| a.upper.is_finite());
+    let (found, law): (Box<dyn Trajectory>, TimingLaw);
+    let looked_at;
     if limits.jerk().is_some() {
-        let found = JerkLimited::default().time(path, limits)?;
-        return Ok((Box::new(found), TimingLaw::JerkLimited.into()));
+        let timed = JerkLimited::default().time_within(path, limits, torques)?;
+        looked_at = Some(held(&timed, slower(&timed, asked), limits, torques));
+        law = match torques {
+            None => TimingLaw::JerkLimited,
+            Some(_) => TimingLaw::WithinJerksAndTorques { accelerations },
+        };
+        found = Box::new(timed);
+    } else {
+        let timed = TimeOptimal::default().time_within(path, limits, torques)?;
+        looked_at = torques.map(|torques| held(&timed, slower(&timed, asked), limits, Some(torques)));
+        law = match torques {
+            None => TimingLaw::TimeOptimal,
+            Some(torques) => TimingLaw::WithinTorques { accelerations, fastest: !torques.is_viscous() },
+        };
+        found = Box::new(timed);
     }
-    let found = TimeOptimal::default().time_within(path, limits, torques)?;
-    let law = match torques {
-        None => TimingLaw::TimeOptimal,
-        Some(torques) => TimingLaw::WithinTorques {
-            accelerations: limits.acceleration().iter().all(|a| a.upper.is_finite()),
-            fastest: !torques.is_viscous(),
-        },
-    };
-    Ok((Box::new(found), law.into()))
+    if let (Some((_, hardest)), Some(_)) = (&looked_at, asked)
+        && hardest.share > BEYOND
+    {
+        let joint = description.variables()[hardest.joint].symbol.name().to_string();
+        return Err(PlanError::SlowTorque { joint, t: hardest.t, share: hardest.share });
+    }
+    let timing = Timing { held: looked_at.map(|(held, _)| held), ..law.into() };
+    over_duration((found, timing), asked)
+}
+
+/// By how much a motion is slowed down to take as long as was asked for.
+fn slower(motion: &dyn TimedAlongPath, asked: Option<f64>) -> f64 {
+    let own = motion.duration();
+    asked.filter(|_| own > 0.0).map_or(1.0, |asked| (asked / own).max(1.0))
 }
 
 /// A path by a quintic law: over the duration asked for, or the usual one, longer if velocities are limited.

@@ -26,7 +26,7 @@ pub struct TorqueLimits {
 
 /// The torque of a joint at a point of the path, a u + b x + c + f + k √x.
 #[derive(Clone, Copy)]
-pub(super) struct Torque {
+pub(in crate::motion) struct Torque {
     pub a: f64,
     pub b: f64,
     pub c: f64,
@@ -67,8 +67,18 @@ impl TorqueLimits {
         self.ranges.len()
     }
 
+    /// What the drives can do, joint by joint.
+    pub fn ranges(&self) -> &[Range] {
+        &self.ranges
+    }
+
+    /// The arm that they move.
+    pub fn arm(&self) -> &Dynamics<f64> {
+        &self.arm
+    }
+
     /// The torques along a path at a point of it, joint by joint.
-    pub(super) fn along(&self, q: &[f64], dq: &[f64], ddq: &[f64]) -> Vec<Torque> {
+    pub(in crate::motion) fn along(&self, q: &[f64], dq: &[f64], ddq: &[f64]) -> Vec<Torque> {
         let (arm, gravity) = (&self.arm, gravity_torques(&self.arm, q));
         // A q'' + C q' + Q + FV q'
         let all = inverse_dynamics(arm, q, dq, ddq, None);
@@ -89,7 +99,7 @@ impl TorqueLimits {
     ///
     /// # Errors
     /// If not, or a torque is not finite.
-    pub(super) fn carried(&self, s: f64, torques: &[Torque]) -> Result<(), MotionError> {
+    pub(in crate::motion) fn carried(&self, s: f64, torques: &[Torque]) -> Result<(), MotionError> {
         for (joint, (t, range)) in torques.iter().zip(&self.ranges).enumerate() {
             finite("torques along the path", &[t.a, t.b, t.c, t.f, t.k])?;
             if !(range.lower < t.c - t.f.abs() && t.c + t.f.abs() < range.upper) {
