@@ -405,6 +405,21 @@ fn paths_keep_torque_limits() {
     };
     assert_eq!(motion("file"), motion("87,87,87,87,12,12,12"));
     assert!(text(&of("file").stderr).contains("it has no efforts"), "{}", text(&of("file").stderr));
+    // Jerks besides: slower than within either, all limits held.
+    let both = |extra: &[&str]| {
+        let path = ["path", &arm, "--joint", "0.9,0", "-q", "1.5,0", "--velocity", "3", "--torque", "60,20"];
+        fed(&[&path[..], &["--jerk", "100"], extra].concat(), "")
+    };
+    let found: Value = serde_json::from_str(&text(&both(&["--json"]).stdout)).unwrap();
+    assert_eq!(found["timing"], "fast, within velocity, jerk and torque limits");
+    assert!(found["duration"].as_f64().unwrap() > 0.4, "{found}");
+    let held = &found["held"];
+    assert!(held["jerk"].as_f64().is_some_and(|j| j > 0.95 && j < 1.001), "{held}");
+    assert!(held["torque"].as_f64().is_some_and(|t| t > 0.3 && t < 1.001), "{held}");
+    assert!(held["acceleration"].is_null() && held["instants"] == 10001, "{held}");
+    let said = text(&both(&[]).stdout);
+    assert!(said.contains("at 10001 instants at most velocities at"), "{said}");
+    assert!(text(&both(&["--law", "quintic"]).stderr).contains("cannot be used with"));
     let weak = of("5");
     assert_eq!(weak.status.code(), Some(1), "{}", text(&weak.stderr));
     assert!(text(&weak.stderr).contains("cannot carry the arm at rest"), "{}", text(&weak.stderr));

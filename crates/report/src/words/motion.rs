@@ -17,7 +17,7 @@ pub trait Motion {
     fn timing(&self, timing: &Timing, description: &Description) -> String;
 
     /// What a motion takes of its limits.
-    fn held(&self, held: &Held) -> String;
+    fn shares_of_limits(&self, held: &Held) -> String;
 
     /// What happens on the way; the path is the subject, or a joint.
     fn event(&self, event: &Event, description: &Description) -> String;

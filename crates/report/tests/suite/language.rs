@@ -10,7 +10,7 @@ use denavit::inverse::{
 };
 use denavit::motion::follow::{Cause, Event, EventKind, Jump};
 use denavit::motion::hand::Stretch;
-use denavit::motion::plan::{Course, Timing, TimingLaw, Verdict};
+use denavit::motion::plan::{Course, Held, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
 use denavit::structure::{NearlySpecial, Relation, Special};
 use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities, Still};
@@ -486,7 +486,7 @@ fn motions_and_axes() {
         }
     }
     let held = Held { instants: 101, velocity: 0.5, acceleration: None, jerk: Some(1.0), torque: Some(0.75) };
-    both(&|w| w.held(&held));
+    both(&|w| w.shares_of_limits(&held));
     for course in [
         Course::Move,
         Course::Straight(3),

@@ -183,3 +183,35 @@ fn a_duration_that_friction_does_not_allow_is_refused() {
     let law = plan(&known(Some(500.0), 12.0), None).unwrap().timing.by;
     assert_eq!(law, TimingLaw::WithinJerksAndTorques { accelerations: false });
 }
+
+/// Two links without weight: the second one turns against the first, whose drive is weak and has much friction. While the arm gathers
+/// speed the second link helps it; more slowly it helps less, by the square, and the friction falls by the speed alone.
+#[test]
+fn slower_is_not_always_easier() {
+    let text = "name = 'b'\nconvention = 'craig'\ngravity = [0, 0, '-9.81']\n[[joints]]\ntheta = 'q1'\nmass = '0.1'\ncom = ['0.1', 0, 0]\nviscous = 0.5\n[[joints]]\ntheta = 'q2'\na = '0.2'\nmass = 4\ncom = ['0.3', 0, 0]\n";
+    let d = read_toml(text).unwrap().0;
+    let robot = denavit::Robot::numeric(&d).unwrap();
+    let plan = |duration: Option<f64>| {
+        let known = KnownLimits {
+            velocity: Some(vec![100.0; 2]),
+            jerk: Some(vec![1e5; 2]),
+            torque: Some(TorqueLimits::symmetric(Dynamics::numeric(&d).unwrap(), &[0.01, 50.0]).unwrap()),
+            ..KnownLimits::default()
+        };
+        let options = PlanOptions { duration, ..PlanOptions::default() };
+        let points = vec![vec![0.0, 2.0], vec![0.2, 1.5], vec![0.2, 0.0], vec![0.2, -1.0]];
+        Planned::new(&d, &robot, Wish::Joints(points), &known, &options)
+    };
+    let fastest = plan(None).unwrap();
+    let torque = |planned: &Planned| planned.timing.held.and_then(|h| h.torque).unwrap();
+    assert!((0.99..1.0001).contains(&torque(&fastest)), "{}", torque(&fastest));
+    let own = fastest.trajectory.duration();
+    match plan(Some(2.0 * own)).map(|_| ()) {
+        Err(PlanError::SlowTorque { joint, t, share }) => {
+            assert!(joint == "q1" && t > 0.0 && t < 2.0 * own && share > 1.5, "{joint} {t} {share}");
+        }
+        other => panic!("{other:?}"),
+    }
+    // Slow enough, it is.
+    assert!(torque(&plan(Some(10.0 * own)).unwrap()) < 1.0);
+}

@@ -51,7 +51,7 @@ pub fn text(d: &Description, planned: &Planned, sampled: &Sampled) -> String {
 pub fn remarks(d: &Description, planned: &Planned) -> String {
     let mut text = format!("  timing: {}\n", words().timing(&planned.timing, d));
     if let Some(held) = &planned.timing.held {
-        text += &format!("  {}\n", words().held(held));
+        text += &format!("  {}\n", words().shares_of_limits(held));
     }
     let Some(followed) = &planned.followed else { return text };
     for event in &followed.events {

@@ -81,7 +81,7 @@ impl Motion for English {
         words + &slowed
     }
 
-    fn held(&self, held: &Held) -> String {
+    fn shares_of_limits(&self, held: &Held) -> String {
         let shares = [
             ("velocities", Some(held.velocity)),
             ("accelerations", held.acceleration),

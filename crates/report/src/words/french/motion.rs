@@ -92,7 +92,7 @@ impl Motion for French {
         words + &slowed
     }
 
-    fn held(&self, held: &Held) -> String {
+    fn shares_of_limits(&self, held: &Held) -> String {
         let shares = [
             ("les vitesses", Some(held.velocity)),
             ("les accélérations", held.acceleration),

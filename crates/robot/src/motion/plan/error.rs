@@ -20,7 +20,8 @@ pub enum PlanError {
     NeededForTorque,
     /// Torque limits are kept by timings of a path, and not by time laws.
     LawWithTorque,
-    /// More slowly a torque is beyond its limit, as friction that grows with the speed no longer helps.
+    /// Over the duration asked for a torque is beyond its limit: friction that grows with the speed falls less than what helps
+    /// against it.
     SlowTorque {
         /// The joint's variable.
         joint: String,
