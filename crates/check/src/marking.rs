@@ -28,6 +28,8 @@ pub struct Item {
     pub points: f64,
     /// All or nothing; else each formula earns its share.
     pub whole: bool,
+    /// How many formulas a full answer has: those that are missing earn nothing. 0 where that is not known.
+    pub formulas: usize,
 }
 
 /// What a document earns, item by item.
@@ -104,12 +106,13 @@ impl Rubric {
             }
         }
         mark.right[1] = shares.len();
-        let count = shares.len().max(1) as f64;
-        let certain: f64 = shares.iter().flatten().sum();
+        let count = shares.len().max(item.formulas).max(1) as f64;
+        // A sum of nothing is -0.
+        let certain = 0.0 + shares.iter().flatten().sum::<f64>();
         let open = shares.iter().filter(|s| s.is_none()).count() as f64;
         let [certain, open] = match item.whole {
             false => [certain, open],
-            true if shares.iter().flatten().any(|s| *s < 1.0) => [0.0, 0.0],
+            true if shares.len() < item.formulas || shares.iter().flatten().any(|s| *s < 1.0) => [0.0, 0.0],
             true if open > 0.0 => [0.0, count],
             true => [certain, 0.0],
         };

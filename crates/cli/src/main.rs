@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         Command::Path(a) => commands::path::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
         Command::Report(a) => commands::report::run(&a),
+        Command::Exercise(a) => commands::exercise::run(&a),
         Command::Check(a) => commands::check::run(a),
         Command::Generate(a) => commands::generate::run(&a),
         Command::View(a) => commands::view::run(&a),

@@ -1,12 +1,14 @@
 //! Documents about a robot: what `denavit` derives, as a document that one would hand in.
 //!
 //! [`report`] makes a [`Document`], a tree that knows no format ([`document`]); [`explain`] the derivations in it; all words
-//! are those of [`words`]. [`render`] writes it as Typst, LaTeX, Markdown and HTML. [`figure`] draws the arm. Nothing
+//! are those of [`words`]. [`render`] writes it as Typst, LaTeX, Markdown and HTML. [`figure`] draws the arm. [`exercise`] makes sheets of tasks with
+//! their solutions. Nothing
 //! here opens a file; nothing computes what the robot crate should.
 
 mod cell;
 mod derivation;
 pub mod document;
+mod exercise;
 pub mod explain;
 mod explained;
 pub mod figure;
@@ -18,4 +20,5 @@ pub mod words;
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
+pub use exercise::{Exercise, ExerciseKind, ExerciseOptions, MAX_COUNT, NoExercise, exercise};
 pub use sections::{Errata, ReportOptions, Topic, report, reports};

@@ -13,6 +13,7 @@ pub mod code;
 pub mod convert;
 pub mod derivation;
 pub mod dynamics;
+pub mod exercise;
 pub mod finding;
 pub mod forward;
 pub mod inverse;

@@ -2,6 +2,7 @@
 
 mod convert;
 mod dynamics;
+mod exercise;
 mod path;
 mod report;
 mod view;
@@ -15,6 +16,7 @@ use std::path::PathBuf;
 
 pub use convert::{ConvertArguments, ConvertFormat};
 pub use dynamics::DynamicsArguments;
+pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use path::{PathArguments, PathFormat};
 pub use report::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
@@ -59,6 +61,8 @@ pub enum Command {
     Derive(DeriveArguments),
     /// Write everything about a robot as a document: figures, table, models, solutions, singularities, workspace
     Report(ReportArguments),
+    /// Make an exercise sheet with round numbers, its solution, and the task that `check` marks answers by
+    Exercise(ExerciseArguments),
     /// Hold formulas that somebody printed against the robot: proved, or wrong and where the slip is
     Check(CheckArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself

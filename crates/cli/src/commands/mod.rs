@@ -6,6 +6,7 @@ pub mod convert;
 pub mod derive;
 pub mod document;
 pub mod dynamics;
+pub mod exercise;
 pub mod fk;
 pub mod generate;
 pub mod ik;

@@ -73,6 +73,13 @@ pub struct Figure {
     pub pictures: Vec<(Drawing, Line)>,
 }
 
+impl Document {
+    /// Whether there are pictures in it.
+    pub fn has_figures(&self) -> bool {
+        self.sections.iter().flat_map(|s| &s.parts).any(|part| matches!(part, Part::Figure(_)))
+    }
+}
+
 impl From<Block> for Part {
     fn from(block: Block) -> Self {
         Part::Block(block)

@@ -11,6 +11,7 @@ pub use dynamics::{
     dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
     tree_dynamics_document, tree_dynamics_vocabulary,
 };
+pub(crate) use inverse::uses_letters;
 pub use inverse::{
     Bound, Case, Component, Consequence, Explained, Explanation, Kind, Remark, Source, Statement,
 };

@@ -15,7 +15,7 @@ const LONG: usize = 20;
 
 /// A fragment to paste into a document.
 pub fn fragment(document: &Document) -> String {
-    let figures = document.sections.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Figure(_)));
+    let figures = document.has_figures();
     let mut out = format!(
         "% Made by denavit {}; needs amsmath and amssymb{}.\n\\section*{{{}}}\n",
         env!("CARGO_PKG_VERSION"),

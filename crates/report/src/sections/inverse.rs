@@ -78,7 +78,7 @@ fn solutions(s: &Setting) -> Option<Section> {
     }
     let representatives = answer.families.iter().map(|f| &f.representative);
     let found: Vec<Solution> = answer.solutions.iter().chain(representatives).cloned().collect();
-    let found: Vec<Solution> = found.into_iter().map(|f| turned(f, &solver.space)).collect();
+    let found: Vec<Solution> = found.into_iter().map(|f| within_turns(f, &solver.space)).collect();
     if found.is_empty() {
         section.paragraph(Line::new(s.words().no_solution()));
         return Some(section);
@@ -95,7 +95,7 @@ fn solutions(s: &Setting) -> Option<Section> {
 }
 
 /// A solution within the limits by whole turns of its joints, with the values that are.
-fn turned(mut found: Solution, space: &denavit::inverse::JointSpace) -> Solution {
+pub fn within_turns(mut found: Solution, space: &denavit::inverse::JointSpace) -> Solution {
     if found.within_limits {
         for ((x, limits), is_angle) in found.q.iter_mut().zip(&space.limits).zip(&space.is_angle) {
             let Some([low, high]) = limits.filter(|_| *is_angle) else { continue };

@@ -14,12 +14,15 @@ mod table;
 mod velocity;
 mod workspace;
 
+pub(crate) use example::numbers;
+pub(crate) use inverse::within_turns;
+pub(crate) use setting::Setting;
 pub use setting::{Errata, ReportOptions, Topic};
+pub(crate) use table::{ends, rows, values};
 
 use crate::document::{Document, Section};
 use crate::words::Tongue;
 use denavit::description::Description;
-use setting::Setting;
 
 /// The report about a robot.
 pub fn report(description: &Description, options: &ReportOptions) -> Document {

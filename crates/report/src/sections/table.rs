@@ -45,7 +45,15 @@ fn meanings(s: &Setting) -> Vec<Line> {
     rows.map(row).to_vec()
 }
 
+/// A table with the values of its parameters and what stands at its ends.
 fn one(s: &Setting, d: &Description, section: &mut Section) {
+    rows(s, d, section);
+    values(s, d, section);
+    ends(s, d, section);
+}
+
+/// The rows of a table.
+pub fn rows(s: &Setting, d: &Description, section: &mut Section) {
     let columns = d.columns();
     let has_limits = d.rows.iter().any(|r| r.limits.is_some());
     let mut head = vec![Line::default().math(Expr::symbol("j")), Line::new(s.words().column(Heads::Joint))];
@@ -86,7 +94,10 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
     });
     let caption = Line::new(s.words().parameters(d.convention));
     section.push(Part::Table(Table { caption, head, rows: rows.collect() }));
-    values(s, d, section);
+}
+
+/// Where frame 0 stands in the base, and the tool in the last frame, where these are not the same.
+pub fn ends(s: &Setting, d: &Description, section: &mut Section) {
     let mut placed = |x: &Transform<Expr>, words: String, from: String, to: String| {
         if *x != Transform::identity() {
             section.paragraph(Line::new(words));
@@ -99,7 +110,7 @@ fn one(s: &Setting, d: &Description, section: &mut Section) {
 }
 
 /// The values of the parameters, where they are known.
-fn values(s: &Setting, d: &Description, section: &mut Section) {
+pub fn values(s: &Setting, d: &Description, section: &mut Section) {
     let known: Vec<_> = d.parameters.iter().filter(|p| p.value.is_some()).collect();
     if !known.is_empty() {
         section.paragraph(quantities(Line::new(s.words().values()), d, &known));

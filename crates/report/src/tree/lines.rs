@@ -43,7 +43,7 @@ pub fn aligned(m: &Math, names: &Vocabulary, style: Style, room: f64) -> Laid {
     let measured = Writer { names: &with_indexed(m, &names, Style::Latex), style: Style::Latex };
     let writer = Writer { names: &names, style };
     match m {
-        Math::Matrix(..) | Math::Numbers(..) => whole(m, &names, style),
+        Math::Matrix(..) | Math::Numbers(..) | Math::Quantity { .. } => whole(m, &names, style),
         Math::Expr(e) => Laid {
             left: String::new(),
             lines: continued(broken(writer.set(*e), &names, style, room, room - INDENT)),

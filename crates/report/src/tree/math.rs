@@ -59,6 +59,10 @@ impl Writer<'_> {
                 let rows = rows.iter().map(|r| r.iter().map(|x| self.number(x)).collect()).collect();
                 self.factor(name) + self.sign(Sign::Equal) + &self.grid(rows)
             }
+            Math::Quantity { of, is_rate, digits, unit } => {
+                let of = if *is_rate { self.rate(*of) } else { self.expr(*of) };
+                of + self.sign(Sign::Equal) + &self.number(digits) + &self.unit(unit)
+            }
         };
         match self.style {
             Style::MathMl => format!("<mrow>{text}</mrow>"),
@@ -251,6 +255,40 @@ impl Writer<'_> {
             (Style::MathMl, _) => format!("<mrow><mo>−</mo><mn>{digits}</mn></mrow>"),
             (Style::Unicode, "-") => format!("−{digits}"),
             _ => format!("{sign}{digits}"),
+        }
+    }
+
+    /// The velocity of a variable: with a dot.
+    fn rate(&self, of: Expr) -> String {
+        let name = self.expr(of);
+        match self.style {
+            Style::Ascii => format!("d{name}"),
+            Style::Unicode => {
+                let mut letters = name.chars();
+                let first: String = letters.next().into_iter().chain(['\u{307}']).collect();
+                first + letters.as_str()
+            }
+            Style::Latex => match name.split_once('_') {
+                Some((base, index)) => format!("\\dot{{{base}}}_{index}"),
+                None => format!("\\dot{{{name}}}"),
+            },
+            Style::Typst => format!("dot({name})"),
+            Style::MathMl => format!("<mover>{name}<mo>˙</mo></mover>"),
+        }
+    }
+
+    /// A unit behind a number.
+    fn unit(&self, unit: &str) -> String {
+        match (self.style, unit) {
+            (Style::Ascii, "°") => " deg".into(),
+            (Style::Unicode, "°") => "°".into(),
+            (Style::Latex, "°") => "^{\\circ}".into(),
+            (Style::Typst, "°") => " degree".into(),
+            (Style::MathMl, "°") => "<mo>°</mo>".into(),
+            (Style::Ascii | Style::Unicode, _) => format!(" {unit}"),
+            (Style::Latex, _) => format!(" \\text{{ {unit}}}"),
+            (Style::Typst, _) => format!(" thin upright(\"{unit}\")"),
+            (Style::MathMl, _) => format!("<mspace width=\"0.2em\"/><mtext>{unit}</mtext>"),
         }
     }
 

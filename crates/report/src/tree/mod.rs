@@ -119,6 +119,17 @@ pub enum Math {
     Numbers(Factor, Vec<Vec<String>>),
     /// The determinant of a matrix.
     Determinant(Factor, Expr),
+    /// A decimal number with its unit.
+    Quantity {
+        /// What it is the value of.
+        of: Expr,
+        /// Whether it is the value of its velocity.
+        is_rate: bool,
+        /// The number, a hyphen for its minus sign.
+        digits: String,
+        /// `°`, `m`, `rad/s`.
+        unit: &'static str,
+    },
 }
 
 impl From<Expr> for Math {
@@ -141,7 +152,7 @@ impl Math {
     /// All expressions in it.
     pub fn exprs(&self) -> Vec<Expr> {
         match self {
-            Math::Expr(e) | Math::Determinant(_, e) => vec![*e],
+            Math::Expr(e) | Math::Determinant(_, e) | Math::Quantity { of: e, .. } => vec![*e],
             Math::Chain(a, rest) => [*a].into_iter().chain(rest.iter().map(|r| r.1)).collect(),
             Math::Product(_) | Math::Products(..) | Math::Numbers(..) => vec![],
             Math::Matrix(_, rows) => rows.iter().flatten().copied().collect(),

@@ -7,6 +7,7 @@
 mod check;
 mod dynamics;
 mod english;
+mod exercise;
 mod french;
 mod geometry;
 mod inverse;
@@ -18,6 +19,7 @@ mod velocity;
 pub use check::Check;
 pub use dynamics::Dynamics;
 pub use english::English;
+pub use exercise::Exercise;
 pub use french::French;
 pub use geometry::{Geometry, Whole};
 pub use inverse::{Coefficients, Given, Inverse};
@@ -37,9 +39,12 @@ pub enum Tongue {
 }
 
 /// All messages.
-pub trait Wording: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report {}
+pub trait Wording:
+    Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report + Exercise
+{
+}
 
-impl<T: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report> Wording for T {}
+impl<T: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Report + Exercise> Wording for T {}
 
 impl Tongue {
     /// All languages.

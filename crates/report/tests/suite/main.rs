@@ -2,6 +2,7 @@
 
 mod checked;
 mod escape;
+mod exercise;
 mod explain;
 mod fed_back;
 mod figures;

@@ -5,7 +5,7 @@ mod class_page;
 mod html;
 mod markdown;
 mod marked;
-mod rubric;
+pub mod rubric;
 mod sheet;
 mod terminal;
 

@@ -11,6 +11,7 @@
 //! claims = ["A_1", "A_2"]      # left sides as printed; "*" stands for any letters
 //! points = 4
 //! whole = true                 # all or nothing; else each formula earns its share
+//! formulas = 12                # how many a full answer has: what is missing earns nothing
 //! ```
 
 use crate::failure::Failure;
@@ -25,6 +26,26 @@ pub struct Task {
     pub rubric: Rubric,
     /// A name of the catalogue, or a file beside that of the task.
     pub robot: Option<String>,
+}
+
+/// A rubric as a file that [`read`] reads, of a task with this robot.
+pub fn write(rubric: &Rubric, robot: &str) -> String {
+    let text = |s: &str| toml::Value::from(s).to_string();
+    let mut out = String::new();
+    if let Some(title) = &rubric.title {
+        out += &format!("title = {}\n", text(title));
+    }
+    out += &format!("robot = {}\n", text(robot));
+    out += &format!("conditional = {:?}\ncarried = {:?}\n", rubric.conditional, rubric.carried);
+    for item in &rubric.items {
+        let claims: Vec<String> = item.claims.iter().map(|c| text(c)).collect();
+        out += &format!("\n[[items]]\nname = {}\nclaims = [{}]\n", text(&item.name), claims.join(", "));
+        out += &format!("points = {:?}\nformulas = {}\n", item.points, item.formulas);
+        if item.whole {
+            out += "whole = true\n";
+        }
+    }
+    out
 }
 
 /// Reads a rubric file.
@@ -65,6 +86,7 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
                 claims,
                 points,
                 whole: get("whole").and_then(toml::Value::as_bool).unwrap_or(false),
+                formulas: get("formulas").and_then(toml::Value::as_integer).map_or(0, |n| n.max(0) as usize),
             }),
             _ => errors.push(format!("item {n} needs `claims` (names) and `points` (a number)")),
         }

@@ -106,7 +106,7 @@ fn write(document: &Document, format: ReportFormat, to: &Path) -> Result<(), Fai
 }
 
 /// The text, and its figures in a folder beside it.
-fn markdown(document: &Document, to: &Path) -> Result<(), Failure> {
+pub fn markdown(document: &Document, to: &Path) -> Result<(), Failure> {
     let stem = to.file_stem().map_or("report".into(), |s| s.to_string_lossy());
     let stem = if is_stdout(to) { "report".into() } else { stem };
     let written = render::markdown(document, &format!("{stem}-figures"));

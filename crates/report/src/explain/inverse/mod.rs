@@ -11,6 +11,8 @@ mod written;
 
 pub use crate::explained::{Bound, Case, Component, Consequence, Explained, Kind, Remark, Source, Statement};
 
+pub(crate) use written::uses_letters;
+
 use crate::document::{Block, Branch, Factor, Math, Proof};
 use crate::words::Tongue;
 use denavit::description::Description;

@@ -71,7 +71,7 @@ fn unknown(s: &Explained) -> Line {
 }
 
 /// True if a statement names a coefficient of its step.
-fn uses_letters(s: &Statement, step: &Explained) -> bool {
+pub fn uses_letters(s: &Statement, step: &Explained) -> bool {
     let names: Vec<Expr> = step.coefficients.iter().filter_map(|c| c.math.exprs().first().copied()).collect();
     s.math.exprs().iter().any(|e| e.symbols().into_iter().any(|x| names.contains(&Expr::from(x))))
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod dynamics;
+mod exercise;
 mod geometry;
 mod inverse;
 mod motion;

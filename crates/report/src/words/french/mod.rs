@@ -11,6 +11,7 @@ macro_rules! say {
 
 mod check;
 mod dynamics;
+mod exercise;
 mod geometry;
 mod inverse;
 mod motion;

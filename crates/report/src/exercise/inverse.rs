@@ -1,0 +1,139 @@
+//! All configurations for a pose.
+
+use super::NoExercise;
+use super::chosen::Chosen;
+use super::sheet::{Asked, Ground, Task};
+use crate::document::{Block, Line, Math, Proof, Section, Sign};
+use crate::explain::{Explained, Explanation, Kind, Statement, uses_letters};
+use crate::render::too_long;
+use crate::sections::{numbers, within_turns};
+use denavit::geometry::{Rotation, Transform, Vector};
+use denavit::inverse::{InverseKinematics, InverseOptions, Solution};
+use denavit_symbolic::readable::settled;
+use denavit_symbolic::{Expr, Symbol};
+
+/// A pose with more configurations is not asked for.
+const MOST: usize = 16;
+
+/// A pose with all its configurations.
+struct Solved {
+    pose: Transform<f64>,
+    solutions: Vec<Solution>,
+}
+
+/// The joints for poses: the formulas where there is a closed form, and all configurations in numbers.
+pub(super) fn configurations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
+    let (s, words) = (&ground.setting, ground.words());
+    let solver = InverseKinematics::new(&s.description, &InverseOptions::default());
+    let solver = solver.map_err(NoExercise::Unprepared)?;
+    if !solver.given.is_empty() {
+        return Err(NoExercise::Redundant);
+    }
+    let mut solved: Vec<Solved> = vec![];
+    let mut is_endless = false;
+    // All configurations are known, each by itself, and the pose has been met.
+    let all = chosen.configurations(&s.description, ground.options.count, |q| {
+        let pose = solver.robot.pose(q);
+        let answer = solver.solve(&pose, &[]);
+        let single = answer.solutions.iter().all(|f| f.multiplicity == 1 && f.residual < 1e-7);
+        is_endless |= !answer.families.is_empty();
+        let serves = answer.is_complete()
+            && answer.families.is_empty()
+            && (1..=MOST).contains(&answer.solutions.len())
+            && single;
+        if serves {
+            let turned = answer.solutions.into_iter().map(|f| within_turns(f, &solver.space));
+            solved.push(Solved { pose, solutions: turned.collect() });
+        }
+        serves
+    });
+    let all = all.map_err(|why| if solved.is_empty() && is_endless { NoExercise::Redundant } else { why })?;
+
+    let mut given = Section::new(ground.names());
+    let mut answers = formulas(ground);
+    let mut in_numbers = Section::new(ground.names());
+    for (k, one) in solved.iter().enumerate() {
+        given.heading(3, Line::new(words.given_pose_title(k + 1)));
+        in_numbers.heading(3, Line::new(words.solved_pose_title(k + 1)));
+        for section in [&mut given, &mut in_numbers] {
+            section.formula(numbers(&one.pose));
+        }
+        for (j, f) in one.solutions.iter().enumerate() {
+            let mut line = Line::new(words.numbered_solution(j + 1));
+            line.0.extend(ground.configuration(&f.q).0);
+            in_numbers.paragraph(line);
+        }
+        let (found, families) = (one.solutions.len(), 0);
+        in_numbers.paragraph(Line::new(words.found(found, families, true)));
+    }
+    answers.push(in_numbers);
+    let joints: usize = solved.iter().map(|one| one.solutions.len()).sum::<usize>() * all[0].len();
+    Ok(Asked {
+        given: vec![given],
+        tasks: vec![Task {
+            name: words.configurations_title(),
+            words: Line::new(words.ask_configurations(all.len())),
+            points: 10,
+            claims: ground.joints(),
+            formulas: joints,
+            answer: answers,
+        }],
+    })
+}
+
+/// The closed form, where there is one that is proved: the equations of each step with their solution.
+fn formulas(ground: &Ground) -> Vec<Section> {
+    let (s, words) = (&ground.setting, ground.words());
+    let Ok(model) = s.inverse() else { return vec![] };
+    let explanation = Explanation::of(model);
+    if explanation.proof() != Proof::Proved {
+        return vec![];
+    }
+    let mut section = Section::new(explanation.names());
+    section.heading(3, Line::new(words.formulas_title()));
+    // What the formulas say of the pose without the robot's base and tool they say of the pose itself.
+    let names: [Expr; 12] = explanation.pose;
+    let pose = Transform {
+        rotation: Rotation::from_rows([0, 1, 2].map(|r| [0, 1, 2].map(|c| names[4 * r + c]))),
+        translation: Vector([3, 7, 11].map(|k| names[k])),
+    };
+    let own = (model.chain.base.inverse() * pose * model.chain.tool.inverse()).matrix().map(|row| row.map(settled));
+    let of_pose = |x: Symbol| {
+        let k = names.iter().position(|name| name.as_symbol() == Some(x))?;
+        Some(own[k / 4][k % 4])
+    };
+    let signs: Vec<Math> = explanation
+        .steps
+        .iter()
+        .filter(|step| step.kind != Kind::Homogeneous)
+        .filter_map(|step| Some(Math::relation(step.sign?, Sign::EitherSign, Expr::int(1))))
+        .collect();
+    if !signs.is_empty() {
+        section.paragraph(Line::default().list(signs));
+    }
+    for statement in explanation.steps.iter().flat_map(shown).chain(&explanation.joints) {
+        let Some(math) = put(&statement.math, &of_pose) else { continue };
+        if !too_long(&math, &section.names) {
+            section.push(Block::Formula { math, number: None, proof: statement.proof });
+        }
+    }
+    vec![section]
+}
+
+/// A relation with other things in the places of its symbols; nothing of what is no relation.
+fn put(math: &Math, leaf: &impl Fn(Symbol) -> Option<Expr>) -> Option<Math> {
+    let Math::Chain(first, rest) = math else { return None };
+    let rest = rest.iter().map(|(sign, e)| (*sign, e.substitute(leaf)));
+    Some(Math::Chain(first.substitute(leaf), rest.collect()))
+}
+
+/// What is shown of a step: the names, its equations, and what they are solved to. An equation A cos + B sin = 0 says it by itself: its two
+/// values are half a turn apart; an angle of sine and cosine that stand above it, too.
+fn shown(step: &Explained) -> impl Iterator<Item = &Statement> {
+    let is_lettered = step.solution.iter().any(|s| uses_letters(s, step));
+    let letters = step.coefficients.iter().filter(move |_| is_lettered);
+    let equations = step.sources.iter().flat_map(|source| &source.equations);
+    let is_solved = step.kind != Kind::Homogeneous;
+    let solution = step.solution.iter().filter(move |x| is_solved && x.proof.is_some());
+    step.names.iter().chain(equations).chain(letters).chain(solution)
+}

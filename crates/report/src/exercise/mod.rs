@@ -1,0 +1,186 @@
+//! Exercises: a sheet of tasks about a robot with round numbers, the sheet of its solutions, and the points.
+//!
+//! Everything in a solution comes from the derivations of `denavit`. The names of a [`Rubric`]'s items are those that the
+//! solution uses, so that [`denavit_check::check`] and [`Rubric::mark`] mark what students hand in.
+
+mod chosen;
+mod forward;
+mod inverse;
+mod sheet;
+mod velocity;
+
+use crate::document::Document;
+use crate::words::Tongue;
+use chosen::Chosen;
+use denavit::description::Description;
+use denavit::inverse::Unprepared;
+use denavit::robot::MissingValue;
+use denavit::velocity::Obstacle;
+use denavit_check::marking::Rubric;
+use sheet::Asked;
+use std::fmt;
+use std::str::FromStr;
+
+/// The most configurations or poses of a sheet.
+pub const MAX_COUNT: usize = 20;
+
+/// What an exercise is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ExerciseKind {
+    /// The link transforms, the pose of the tool, and the pose in numbers.
+    Forward,
+    /// The Denavit–Hartenberg table of a drawing.
+    Table,
+    /// All configurations for a pose.
+    Inverse,
+    /// The Jacobian, as a formula and in numbers.
+    Jacobian,
+    /// Where the arm is singular.
+    Singularities,
+}
+
+impl ExerciseKind {
+    /// All of them.
+    pub const ALL: [ExerciseKind; 5] = [
+        ExerciseKind::Forward,
+        ExerciseKind::Table,
+        ExerciseKind::Inverse,
+        ExerciseKind::Jacobian,
+        ExerciseKind::Singularities,
+    ];
+
+    /// Its name: `fk`, `dh`, `ik`, `jacobian`, `singularities`.
+    pub fn name(self) -> &'static str {
+        match self {
+            ExerciseKind::Forward => "fk",
+            ExerciseKind::Table => "dh",
+            ExerciseKind::Inverse => "ik",
+            ExerciseKind::Jacobian => "jacobian",
+            ExerciseKind::Singularities => "singularities",
+        }
+    }
+}
+
+impl FromStr for ExerciseKind {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let names = || ExerciseKind::ALL.map(ExerciseKind::name).join(", ");
+        ExerciseKind::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or_else(|| format!("there are no exercises of the kind `{name}`: {}", names()))
+    }
+}
+
+/// Which exercise.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ExerciseOptions {
+    /// What it is about.
+    pub kind: ExerciseKind,
+    /// The same seed makes the same sheet.
+    pub seed: u64,
+    /// How many configurations or poses it has, 1 to [`MAX_COUNT`].
+    pub count: usize,
+    /// The language of the words.
+    pub language: Tongue,
+}
+
+/// A sheet, its solution, and the points.
+#[derive(Clone, Debug)]
+pub struct Exercise {
+    /// What it was made from.
+    pub options: ExerciseOptions,
+    /// The robot with names and values for all its lengths: answers are held against it.
+    pub robot: Description,
+    /// What students get.
+    pub statement: Document,
+    /// What it should come to.
+    pub solution: Document,
+    /// The points, item by item.
+    pub rubric: Rubric,
+}
+
+/// Why there is no such exercise.
+#[derive(Clone, Debug)]
+pub enum NoExercise {
+    /// The robot has no joint.
+    Still,
+    /// A parameter that is no length and no angle has no value.
+    Values(MissingValue),
+    /// The count is 0 or too large.
+    Count(usize),
+    /// Not so many regular configurations with round numbers were found.
+    Configurations {
+        /// How many were.
+        found: usize,
+        /// How many were to be.
+        asked: usize,
+    },
+    /// The arm has joints too many: a pose has endless configurations.
+    Redundant,
+    /// There can be no inverse kinematics.
+    Unprepared(Unprepared),
+    /// The Jacobian is too large to be printed.
+    Large,
+    /// The singularities are not had as formulas.
+    Singular(Obstacle),
+    /// There are none, or none that have the form of a formula.
+    NeverSingular,
+}
+
+impl fmt::Display for NoExercise {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoExercise::Still => write!(f, "the robot has no joint"),
+            NoExercise::Values(missing) => missing.fmt(f),
+            NoExercise::Count(n) => write!(f, "{n} configurations: a sheet has 1 to {MAX_COUNT}"),
+            NoExercise::Configurations { found, asked } => {
+                write!(f, "{found} regular configurations with round numbers were found, {asked} are asked for")
+            }
+            NoExercise::Redundant => write!(f, "the arm has endless configurations for a pose"),
+            NoExercise::Unprepared(why) => why.fmt(f),
+            NoExercise::Large => write!(f, "the Jacobian is too large to be printed"),
+            NoExercise::Singular(why) => why.fmt(f),
+            NoExercise::NeverSingular => write!(f, "no singularity is had as a value of a joint"),
+        }
+    }
+}
+
+impl std::error::Error for NoExercise {}
+
+/// Makes an exercise about a robot.
+///
+/// ```
+/// use denavit_report::words::Tongue;
+/// use denavit_report::{ExerciseKind, ExerciseOptions, exercise};
+///
+/// let arm = denavit::catalogue::robot("planar-2r").expect("it is in the catalogue");
+/// let options =
+///     ExerciseOptions { kind: ExerciseKind::Inverse, seed: 1, count: 1, language: Tongue::English };
+/// let made = exercise(&arm, &options).expect("it has two joints");
+/// assert_eq!(made.rubric.items.len(), 1);
+/// ```
+///
+/// # Errors
+/// If the robot lacks what such an exercise is about.
+pub fn exercise(description: &Description, options: &ExerciseOptions) -> Result<Exercise, NoExercise> {
+    if description.variables().is_empty() {
+        return Err(NoExercise::Still);
+    }
+    if !(1..=MAX_COUNT).contains(&options.count) {
+        return Err(NoExercise::Count(options.count));
+    }
+    let mut chosen = Chosen::new(options.seed);
+    let robot = chosen.with_values(&description.with_named_lengths());
+    let make: fn(&sheet::Ground, &mut Chosen) -> Result<Asked, NoExercise> = match options.kind {
+        ExerciseKind::Forward => forward::poses,
+        ExerciseKind::Table => forward::table,
+        ExerciseKind::Inverse => inverse::configurations,
+        ExerciseKind::Jacobian => velocity::jacobian,
+        ExerciseKind::Singularities => velocity::singularities,
+    };
+    let ground = sheet::Ground::new(&robot, options);
+    let asked = make(&ground, &mut chosen)?;
+    Ok(ground.exercise(asked))
+}

@@ -1,0 +1,176 @@
+//! The Jacobian, and where it loses rank.
+
+use super::chosen::Chosen;
+use super::sheet::{Asked, Ground, Task, counted, digits, quantity};
+use super::NoExercise;
+use crate::document::{Block, Factor, Line, Math, Proof, Section};
+use crate::explain::velocity_vocabulary;
+use crate::render::{named, too_long};
+use denavit::description::JointKind;
+use denavit::forward::{Proof as Forward, Reference};
+use denavit::inverse::JointSpace;
+use denavit::robot::Robot;
+use denavit::velocity::{JacobianModel, ROWS, Viewpoint, geometric};
+use denavit_symbolic::{Angle, Expr};
+
+/// The matrix as a formula and in numbers.
+pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
+    let (s, words) = (&ground.setting, ground.words());
+    let d = &s.description;
+    let robot = Robot::numeric(d).map_err(NoExercise::Values)?;
+    let all = chosen.configurations(d, ground.options.count, |_| true)?;
+    let names = velocity_vocabulary(d);
+    // Along the axes of the base where it fits the page, where it is shortest otherwise.
+    let in_base = JacobianModel::derive(d, Viewpoint::tool());
+    let model = if fits(&in_base, ground) { in_base } else { JacobianModel::shortest_at_origin(d, Reference::Tool) };
+    let matrix = model.matrix.as_ref().map_err(|_| NoExercise::Large)?;
+    let rows = matrix.rows().to_vec();
+    let view = &model.view;
+    let place = words.viewpoint(view.body, view.at, None, view.axes);
+
+    let mut answer = Section::new(names.clone());
+    answer.paragraph(place.clone());
+    let proof = (model.proof == Forward::Proved).then_some(Proof::Proved);
+    let whole = Block::Formula { math: Math::Matrix(Factor::named("J"), rows.clone()), number: None, proof };
+    if too_long(&Math::Matrix(Factor::named("J"), rows.clone()), &names) {
+        return Err(NoExercise::Large);
+    }
+    answer.push(whole);
+
+    let in_base = Viewpoint::tool();
+    let base = words.viewpoint(in_base.body, in_base.at, None, in_base.axes);
+    let mut in_numbers = Section::new(names);
+    let mut entries = 0;
+    for (k, q) in all.iter().enumerate() {
+        let shown: Vec<Vec<String>> = geometric(&robot, q, &in_base)
+            .rows()
+            .iter()
+            .map(|row| row.iter().map(|x| digits(*x, 4)).collect())
+            .collect();
+        entries += shown.iter().flatten().filter(|x| !matches!(x.as_str(), "0" | "1")).count().max(1);
+        in_numbers.heading(3, Line::new(words.configuration_title(k + 1)));
+        in_numbers.paragraph(ground.configuration(q));
+        // What stands right before a matrix says where it holds.
+        in_numbers.paragraph(base.clone());
+        in_numbers.formula(Math::Numbers(Factor::named("J"), shown));
+    }
+    let mut tasks = vec![Task {
+        name: words.jacobian_formula(),
+        words: Line::new(words.ask_jacobian()),
+        points: 6,
+        claims: ["J", "J0", "0J", "Jv", "Jw", "j*"].map(String::from).to_vec(),
+        formulas: counted(rows.iter().flatten()) + entries,
+        answer: vec![answer, in_numbers],
+    }];
+    let mut section = Section::new(ground.names());
+    section.heading(3, Line::new(words.formulas_title()));
+    section.paragraph(place);
+    let mut given = vec![section];
+    given.extend(ground.given(&all));
+    let rates = chosen.rates(&JointSpace::new(d, &robot));
+    let (asked, twist) = velocities(ground, &robot, &all[0], &rates);
+    given.push(asked);
+    tasks.push(twist);
+    Ok(Asked { given, tasks })
+}
+
+/// Whether a matrix can be printed on the page entry by entry.
+fn fits(model: &JacobianModel, ground: &Ground) -> bool {
+    let Ok(matrix) = &model.matrix else { return false };
+    let math = Math::Matrix(Factor::named("J"), matrix.rows().to_vec());
+    let whole = Block::Formula { math, number: None, proof: None };
+    named(&whole, &ground.names()).is_none()
+}
+
+/// The velocity of the tool at the first configuration, with its task.
+fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> (Section, Task) {
+    let (s, words) = (&ground.setting, ground.words());
+    let names = velocity_vocabulary(&s.description);
+    let line = Line::new(words.rates_given());
+    let variables = s.description.variables();
+    let line = line.list(variables.iter().zip(rates).map(|(v, x)| {
+        let unit = if v.kind == JointKind::Revolute { "rad/s" } else { "m/s" };
+        Math::Quantity { of: v.symbol.into(), is_rate: true, digits: digits(*x, 4), unit }
+    }));
+    let twist = geometric(robot, q, &Viewpoint::tool()).twist(rates);
+    let mut section = Section::new(names.clone());
+    section.paragraph(ground.configuration(q));
+    section.paragraph(line.clone());
+    let mut formulas = 0;
+    for (name, x) in ROWS.iter().zip(twist).take(3).filter(|(_, x)| x.abs() > 1e-9) {
+        // What is the velocity of a joint says nothing that is not given.
+        formulas += usize::from(rates.iter().all(|rate| (x.abs() - rate.abs()).abs() > 1e-9));
+        section.paragraph(Line::default().math(quantity(Expr::symbol(name), x, 4, "m/s")));
+    }
+    let mut given = Section::new(names);
+    given.paragraph(line);
+    let task = Task {
+        name: words.velocity_title(),
+        words: Line::new(words.ask_velocity()),
+        points: 2,
+        claims: ["v*", "x*", "y*", "z*"].map(String::from).to_vec(),
+        formulas,
+        answer: vec![section],
+    };
+    (given, task)
+}
+
+/// The determinant and where it is 0.
+pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, NoExercise> {
+    let (s, words) = (&ground.setting, ground.words());
+    let found = s.singular().as_ref().map_err(|why| NoExercise::Singular(why.clone()))?;
+    let names = velocity_vocabulary(&s.description);
+    let view = &found.jacobian.view;
+    let place = words.viewpoint(view.body, view.at, None, view.axes);
+    let mut tasks = vec![];
+    let mut given = vec![];
+    // Of an arm with fewer freedoms the square part of the matrix is no determinant that has a name, but that of positions.
+    let is_named = matches!(found.jacobian.view.body, Reference::Tool)
+        && found.minors.first().is_some_and(|m| m.rows.len() == ROWS.len() || m.rows.iter().copied().eq(0..m.rows.len()));
+    if let ([whole], true) = (&found.minors[..], is_named) {
+        let mut answer = Section::new(names.clone());
+        answer.push(Block::Formula {
+            math: Math::Determinant(Factor::named("J"), whole.determinant.to_expr()),
+            number: None,
+            proof: Some(Proof::Proved),
+        });
+        let mut section = Section::new(names.clone());
+        section.paragraph(place);
+        given.push(section);
+        tasks.push(Task {
+            name: words.determinant_title(),
+            words: Line::new(words.ask_determinant()),
+            points: 4,
+            claims: ["det J", "det*", "D"].map(String::from).to_vec(),
+            formulas: 1,
+            answer: vec![answer],
+        });
+    }
+    let mut answer = Section::new(names);
+    let mut formulas = 0;
+    for one in &found.common {
+        let (unknown, values) = match one.zeros.first().map(|zero| zero.solved()) {
+            Some(solved) if solved.1.iter().all(|value| Angle::of(*value).terms.is_empty()) => solved,
+            _ => {
+                answer.paragraph(words.singular_where(Math::equation(one.factor, Expr::int(0))));
+                continue;
+            }
+        };
+        for value in values {
+            formulas += 1;
+            answer.paragraph(words.singular_where(Math::equation(unknown, value)));
+        }
+    }
+    if formulas == 0 && tasks.is_empty() {
+        return Err(NoExercise::NeverSingular);
+    }
+    tasks.push(Task {
+        name: words.singularities_title(),
+        words: Line::new(words.ask_singular()),
+        points: 4,
+        claims: ground.joints(),
+        formulas,
+        answer: vec![answer],
+    });
+    Ok(Asked { given, tasks })
+}

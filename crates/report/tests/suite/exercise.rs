@@ -1,0 +1,117 @@
+//! Exercise sheets: their solutions fed back to the check are right line by line and earn all points.
+
+use denavit::catalogue;
+use denavit::description::Description;
+use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_reading::document::Format;
+use denavit_report::words::Tongue;
+use denavit_report::{Exercise, ExerciseKind, ExerciseOptions, NoExercise, exercise, render};
+
+/// Planar arms, slides, three conventions, offsets, a wrist, lengths without names, a tool.
+const ROBOTS: [&str; 8] =
+    ["planar-2r", "planar-3r", "scara", "cylindrical-rpp", "spherical-rrp", "puma560", "stanford", "staubli-rx90"];
+
+fn robot(name: &str) -> Description {
+    catalogue::robot(name).expect("in the catalogue")
+}
+
+fn made(name: &str, kind: ExerciseKind, seed: u64) -> Result<Exercise, NoExercise> {
+    exercise(&robot(name), &ExerciseOptions { kind, seed, count: 1, language: Tongue::English })
+}
+
+fn judged(text: &str, format: Format, of: &Description) -> Checked {
+    check(text, format, Some(of), &CheckOptions::default()).unwrap_or_else(|errors| panic!("{errors:?}\n{text}"))
+}
+
+/// What is not right of a solution.
+fn faults(e: &Exercise, text: &str, format: Format, of: &Description) -> Vec<String> {
+    let checked = judged(text, format, of);
+    let open = checked.claims.iter().filter(|c| c.standing() != Standing::Equal);
+    let mut faults: Vec<String> =
+        open.map(|c| format!("{:?} {}: {}", c.standing(), c.name, &text[c.span.clone()])).collect();
+    faults.extend(checked.unjudged.iter().map(|u| format!("not judged: {}", &text[u.span.clone()])));
+    for (mark, item) in e.rubric.mark(text, &checked).marks.iter().zip(&e.rubric.items) {
+        if mark.points < item.points {
+            faults.push(format!("{}: {} of {} points, {:?}", item.name, mark.points, item.points, mark.right));
+        }
+    }
+    faults
+}
+
+#[test]
+fn solutions_are_proved_and_earn_all_points() {
+    let mut made_of = [0; 5];
+    let mut found = vec![];
+    for name in ROBOTS {
+        for (k, kind) in ExerciseKind::ALL.into_iter().enumerate() {
+            let e = match made(name, kind, 3) {
+                Ok(e) => e,
+                // Slides alone are never singular in the form of an angle.
+                Err(NoExercise::NeverSingular | NoExercise::Singular(_)) => continue,
+                Err(why) => panic!("{name}, {kind:?}: {why}"),
+            };
+            made_of[k] += 1;
+            let markdown = render::markdown(&e.solution, "figures").text;
+            let faults = faults(&e, &markdown, Format::Markdown, &e.robot);
+            found.extend(faults.into_iter().map(|f| format!("{name}, {kind:?}: {f}")));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    assert!(made_of.iter().all(|n| *n >= 5), "{made_of:?}");
+}
+
+/// Held against the robot of the catalogue, too, and as LaTeX.
+#[test]
+fn the_robot_itself_serves_as_well() {
+    for (name, kind) in
+        [("planar-3r", ExerciseKind::Forward), ("cylindrical-rpp", ExerciseKind::Jacobian), ("ur5", ExerciseKind::Table)]
+    {
+        let e = made(name, kind, 11).expect("it can be made");
+        let latex = render::latex_fragment(&e.solution);
+        assert_eq!(faults(&e, &latex, Format::Latex, &robot(name)), [""; 0], "{name}, {kind:?}");
+    }
+}
+
+#[test]
+fn the_same_seed_makes_the_same_sheet() {
+    let text = |seed| {
+        let e = made("puma560", ExerciseKind::Forward, seed).expect("it can be made");
+        render::markdown(&e.statement, "figures").text + &render::markdown(&e.solution, "figures").text
+    };
+    assert_eq!(text(5), text(5));
+    let numbers = |seed| text(seed).split("Configuration 1").nth(1).map(str::to_string);
+    let all: Vec<_> = (1..6).map(numbers).collect();
+    let different = all.iter().enumerate().all(|(k, one)| !all[..k].contains(one));
+    assert!(different, "{all:?}");
+}
+
+/// A sign that is lost in a solution costs points.
+#[test]
+fn a_slip_costs_points() {
+    let e = made("planar-2r", ExerciseKind::Forward, 2).expect("it can be made");
+    let right = render::markdown(&e.solution, "figures").text;
+    let wrong = right.replacen("-S_{1}", "S_{1}", 1);
+    assert_ne!(right, wrong);
+    let points = |text: &str| e.rubric.mark(text, &judged(text, Format::Markdown, &e.robot)).points();
+    assert_eq!(points(&right), e.rubric.points());
+    assert!(points(&wrong) < e.rubric.points());
+    // And so does what is left out.
+    let (first, _) = right.split_once("## The pose in numbers").expect("a heading");
+    assert!(points(first) <= e.rubric.points() - 2.0);
+}
+
+/// Lengths without values get some; nothing of a solution stands on the sheet of tasks.
+#[test]
+fn sheets_say_what_is_given() {
+    let mut d = robot("planar-2r");
+    d.parameters.iter_mut().for_each(|p| p.value = None);
+    let options =
+        ExerciseOptions { kind: ExerciseKind::Inverse, seed: 4, count: 3, language: Tongue::French };
+    let e = exercise(&d, &options).expect("it can be made");
+    assert!(e.robot.parameters.iter().all(|p| p.value.is_some()));
+    let sheet = render::markdown(&e.statement, "figures").text;
+    assert!(sheet.contains("Situation 3") && !sheet.contains("Solution"), "{sheet}");
+    assert!(e.rubric.items[0].formulas >= 6);
+    let refused = exercise(&robot("kuka-iiwa-7"), &options);
+    assert!(matches!(refused, Err(NoExercise::Redundant)));
+}
