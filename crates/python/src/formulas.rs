@@ -7,7 +7,7 @@ use denavit::dynamics::{DynamicModel, Loads, Recursion};
 use denavit::forward::Outputs;
 use denavit::inverse::InverseModel;
 use denavit::velocity::{JacobianModel, Obstacle, Singularities, singular_configurations};
-use denavit_check::{CheckOptions, check as judged};
+use denavit_check::{CheckOptions, Checked, check as judged};
 use denavit_emit::{Language, Precision};
 use denavit_generate::{PackageOptions, Wanted};
 use denavit_reading::document::Format;
@@ -175,21 +175,24 @@ pub fn dynamics(d: &Description, format: &str) -> Result<String, Trouble> {
     })
 }
 
+/// A language by its code.
+///
+/// # Errors
+/// If nothing is written in it.
+pub fn tongue(language: &str) -> Result<Tongue, Trouble> {
+    match language {
+        "en" => Ok(Tongue::English),
+        "fr" => Ok(Tongue::French),
+        _ => Err(Trouble::new(Kind::Usage, format!("documents are not written in `{language}`: en or fr"))),
+    }
+}
+
 /// The report.
 ///
 /// # Errors
 /// If there is no such format or language.
 pub fn report(d: &Description, format: &str, language: &str) -> Result<String, Trouble> {
-    let language = match language {
-        "en" => Tongue::English,
-        "fr" => Tongue::French,
-        _ => {
-            return Err(Trouble::new(
-                Kind::Usage,
-                format!("reports are not written in `{language}`: en or fr"),
-            ));
-        }
-    };
+    let language = tongue(language)?;
     let document = denavit_report::report(d, &ReportOptions { language, ..ReportOptions::default() });
     Ok(match format {
         "html" => render::html(&document),
@@ -218,17 +221,25 @@ pub fn figure(d: &Description, q: Option<&[f64]>, scheme: bool) -> Result<String
     Ok(svg(&drawing, Palette::File, "arm"))
 }
 
+/// The claims of a document, each with its verdict.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn judged_as(text: &str, name: &str, d: Option<&Description>) -> Result<Checked, Trouble> {
+    let judged = judged(text, Format::of(name, text), d, &CheckOptions::default());
+    judged.map_err(|notes| {
+        let words = Tongue::English.words();
+        let notes: Vec<Found> = notes.iter().map(|n| found(&words.note(n), name, text)).collect();
+        Trouble::of(notes)
+    })
+}
+
 /// The claims of a document, each with its verdict, as JSON.
 ///
 /// # Errors
 /// If it cannot be read.
 pub fn checked(text: &str, name: &str, d: Option<&Description>) -> Result<String, Trouble> {
-    let judged = judged(text, Format::of(name, text), d, &CheckOptions::default());
-    let judged = judged.map_err(|notes| {
-        let words = Tongue::English.words();
-        let notes: Vec<Found> = notes.iter().map(|n| found(&words.note(n), name, text)).collect();
-        Trouble::of(notes)
-    })?;
+    let judged = judged_as(text, name, d)?;
     Ok(denavit_wire::text(&denavit_wire::check::Checked::of(name, text, &judged)))
 }
 

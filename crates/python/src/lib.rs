@@ -5,6 +5,7 @@
 
 mod arrays;
 mod compiled;
+mod exercises;
 mod formulas;
 mod inverse;
 mod loading;

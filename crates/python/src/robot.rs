@@ -2,6 +2,7 @@
 
 use crate::arrays::Call;
 use crate::compiled::{Compiled, CompiledIk};
+use crate::exercises;
 use crate::formulas;
 use crate::inverse::{self, Solvers};
 use crate::loading::{self, Facts, Joint, Request};
@@ -444,6 +445,30 @@ impl Core {
     }
 
     /// The claims of a document about this robot, as JSON.
+    fn exercise(&self, py: Python<'_>, request: exercises::Request) -> PyResult<String> {
+        Ok(self.derive(py, |d| exercises::data(d, &request))?)
+    }
+
+    fn exercise_sheet(
+        &self,
+        py: Python<'_>,
+        request: exercises::Request,
+        format: &str,
+        solution: bool,
+    ) -> PyResult<String> {
+        Ok(self.derive(py, |d| exercises::sheet(d, &request, format, solution))?)
+    }
+
+    fn exercise_marked(
+        &self,
+        py: Python<'_>,
+        request: exercises::Request,
+        text: &str,
+        name: &str,
+    ) -> PyResult<(String, String)> {
+        Ok(self.derive(py, |d| exercises::marked(d, &request, text, name))?)
+    }
+
     fn check(&self, py: Python<'_>, text: &str, name: &str) -> PyResult<String> {
         Ok(self.derive(py, |d| formulas::checked(text, name, Some(d)))?)
     }

@@ -12,7 +12,7 @@ fn mark(text: &str, claims: &[&str], whole: bool) -> Mark {
     let text = format!("{TABLE}{text}");
     let checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
     let claims = claims.iter().map(|c| (*c).to_string()).collect();
-    let items = vec![Item { name: "item".into(), claims, points: 12.0, whole }];
+    let items = vec![Item { name: "item".into(), claims, points: 12.0, whole, formulas: 0 }];
     let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
     rubric.mark(&text, &checked).marks.remove(0)
 }

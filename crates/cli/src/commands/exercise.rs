@@ -58,7 +58,8 @@ fn sheet(made: &Exercise, arguments: &ExerciseArguments) -> Result<(), Failure> 
 
 /// As said, or by the ending of the file.
 fn format(arguments: &ExerciseArguments) -> Result<ExerciseFormat, Failure> {
-    let ending = arguments.output.as_deref().and_then(Path::extension).map(|e| e.to_string_lossy().to_lowercase());
+    let ending =
+        arguments.output.as_deref().and_then(Path::extension).map(|e| e.to_string_lossy().to_lowercase());
     match (arguments.format, ending.as_deref()) {
         (Some(format), _) => Ok(format),
         (None, None | Some("md" | "markdown")) => Ok(ExerciseFormat::Markdown),

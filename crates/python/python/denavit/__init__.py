@@ -46,7 +46,7 @@ if TYPE_CHECKING:
         JacobianFormulas,
         Step,
     )
-    from ._documents import Checked, Claim, check
+    from ._documents import Checked, Claim, Exercise, Mark, Marked, check
     from ._paths import Clearance, Deviation, Event, Motion, Start, State
 
 __all__ = [
@@ -66,6 +66,7 @@ __all__ = [
     "Deviation",
     "DynamicFormulas",
     "Event",
+    "Exercise",
     "Family",
     "FileError",
     "Finding",
@@ -73,6 +74,8 @@ __all__ = [
     "InverseFormulas",
     "JacobianFormulas",
     "Joint",
+    "Mark",
+    "Marked",
     "MissingValueError",
     "Motion",
     "MotionError",
@@ -103,7 +106,7 @@ _LATE = {
         "JacobianFormulas",
         "Step",
     ],
-    "_documents": ["Checked", "Claim", "check"],
+    "_documents": ["Checked", "Claim", "Exercise", "Mark", "Marked", "check"],
     "_paths": ["Clearance", "Deviation", "Event", "Motion", "Start", "State"],
 }
 

@@ -10,6 +10,7 @@ from typing import Any, Union
 
 from . import _denavit
 from ._errors import FileError
+from ._formulas import Derivations
 
 
 @dataclass(frozen=True)
@@ -89,3 +90,114 @@ def check(document: Union[str, os.PathLike[str]], *, name: str = "document.md") 
     Raises `DescriptionError` if the document has no table that can be read, `FileError` if it cannot be opened.
     """
     return checked_of(_denavit.check(*read_document(document, name)))
+
+
+@dataclass(frozen=True)
+class Mark:
+    """What an answer earns for one of the tasks of an exercise."""
+
+    #: What the task is called.
+    name: str
+    #: The points that are certain.
+    points: float
+    #: Further points that a teacher decides on: formulas that were not judged.
+    open: float
+    #: The most that it earns.
+    most: float
+    #: How many formulas are right, and how many were judged.
+    right: int
+    judged: int
+
+
+@dataclass(frozen=True)
+class Marked:
+    """An answer to an exercise, judged and marked."""
+
+    #: The claims with their verdicts.
+    checked: Checked
+    #: One a task.
+    marks: list[Mark]
+
+    @property
+    def points(self) -> float:
+        """The points that are certain."""
+        return sum(mark.points for mark in self.marks)
+
+    @property
+    def open(self) -> float:
+        """Further points that a teacher decides on."""
+        return sum(mark.open for mark in self.marks)
+
+    @property
+    def most(self) -> float:
+        """The most that can be earned."""
+        return sum(mark.most for mark in self.marks)
+
+    def __str__(self) -> str:
+        line = "{0.name}: {0.points:g} of {0.most:g}, {0.right} of {0.judged} formulas right"
+        lines = [line.format(mark) for mark in self.marks]
+        return "\n".join([*lines, f"{self.points:g} of {self.most:g} points"])
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """A sheet of tasks about a robot, with its solution: see `Robot.exercise`."""
+
+    #: ``fk``, ``dh``, ``ik``, ``jacobian`` or ``singularities``.
+    kind: str
+    #: Which sheet of its kind.
+    seed: int
+    #: How many configurations or poses it has.
+    count: int
+    #: ``en`` or ``fr``.
+    language: str
+    #: Everything, as ``denavit exercise --format json --solution`` prints it: see ``docs/json.md``.
+    data: dict[str, Any] = field(repr=False)
+    #: The robot that it was made of, as it was given.
+    robot: Derivations
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return str(self.data["title"])
+
+    @property
+    def statement(self) -> str:
+        """The tasks, as Markdown."""
+        return str(self.data["statement"])
+
+    @property
+    def solution(self) -> str:
+        """The solution, as Markdown: each formula is proved, and `check` finds it so."""
+        return str(self.data["solution"])
+
+    @property
+    def toml(self) -> str:
+        """The robot that answers are held against, as a robot file: all its lengths have names and values."""
+        return str(self.data["toml"])
+
+    def sheet(self, format: str = "markdown", *, solution: bool = False) -> str:
+        """The tasks, or the solution, as ``markdown``, or as a document of its own in ``html``, ``latex`` or ``typst``."""
+        return self.robot._core.exercise_sheet(self._request, format, solution)
+
+    def check(self, answer: Union[str, os.PathLike[str]], *, name: str = "answer.md") -> Marked:
+        """What an answer earns, formula by formula: ``answer`` and ``name`` are as in `denavit.check`."""
+        checked, marked = self.robot._core.exercise_marked(self._request, *read_document(answer, name))
+        marks = [
+            Mark(m["name"], m["points"], m["open"], m["most"], m["right"], m["judged"])
+            for m in json.loads(marked)["marks"]
+        ]
+        return Marked(checked_of(checked), marks)
+
+    @property
+    def _request(self) -> tuple[str, int, int, str]:
+        return self.kind, self.seed, self.count, self.language
+
+    def _repr_markdown_(self) -> str:
+        return self.statement
+
+
+def exercise_of(robot: Derivations, kind: str, seed: int, count: int, language: str) -> Exercise:
+    """The exercise of these options about a robot."""
+    data = json.loads(robot._core.exercise((kind, seed, count, language)))
+    return Exercise(kind, seed, count, language, data, robot)

@@ -13,7 +13,7 @@ from ._numbers import vector
 
 if TYPE_CHECKING:
     from ._derivations import Derivation
-    from ._documents import Checked
+    from ._documents import Checked, Exercise
 
 PathLike = Union[str, os.PathLike[str]]
 
@@ -101,6 +101,25 @@ class Derivations:
         from ._documents import checked_of, read_document
 
         return checked_of(self._core.check(*read_document(document, name)))
+
+    def exercise(self, kind: str, *, seed: int = 1, count: int = 1, language: str = "en") -> Exercise:
+        """A sheet of tasks with round numbers, its solution, and what marks answers.
+
+        ``kind`` is ``fk`` (link transforms, the pose of the tool as a formula and in numbers), ``dh`` (the table of a drawing),
+        ``ik`` (all configurations for a pose), ``jacobian`` or ``singularities``. The same ``seed`` makes the same sheet;
+        ``count`` is the number of configurations or poses.
+
+        >>> from denavit import Robot
+        >>> exercise = Robot("planar-2r").exercise("ik", seed=7)
+        >>> marked = exercise.check(exercise.solution)
+        >>> marked.points == marked.most
+        True
+
+        Raises `UsageError` if there is no such kind, `UnsupportedError` with the reason if the robot has not what it is about.
+        """
+        from ._documents import exercise_of
+
+        return exercise_of(self, kind, seed, count, language)
 
     def generate(
         self,

@@ -82,7 +82,11 @@ impl Chosen {
             if steps == 0 {
                 steps = if high > 0 { self.whole([1, high]) } else { low };
             }
-            q.push(if is_angle { ((steps * ANGLE) as f64).to_radians() } else { steps as f64 / PARTS as f64 });
+            q.push(if is_angle {
+                ((steps * ANGLE) as f64).to_radians()
+            } else {
+                steps as f64 / PARTS as f64
+            });
         }
         q
     }
@@ -107,7 +111,8 @@ impl Chosen {
         // Directions that the arm never has do not count.
         let rank = |values: &[f64]| values.iter().filter(|s| **s > 1e-6 * values[0].max(1e-12)).count();
         let rank = drawn.iter().map(|(_, values)| rank(values)).max().unwrap_or(0);
-        let least = |values: &[f64]| if rank == 0 { 1.0 } else { values.get(rank - 1).copied().unwrap_or(0.0) };
+        let least =
+            |values: &[f64]| if rank == 0 { 1.0 } else { values.get(rank - 1).copied().unwrap_or(0.0) };
         let best = drawn.iter().map(|(_, values)| least(values)).fold(0.0, f64::max);
         let mut found: Vec<Vec<f64>> = vec![];
         for (q, values) in drawn {

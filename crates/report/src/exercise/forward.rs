@@ -29,7 +29,8 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     let n = model.links.len();
     let of_links = |k: usize| {
         let frame = claimed(&Math::Product(vec![link(k)]), &names);
-        let by_letter = letters.iter().flat_map(move |l| [format!("{l}{k}{}", k + 1), format!("{k}{l}{}", k + 1)]);
+        let by_letter =
+            letters.iter().flat_map(move |l| [format!("{l}{k}{}", k + 1), format!("{k}{l}{}", k + 1)]);
         [frame, format!("A{}", k + 1)].into_iter().chain(by_letter)
     };
     // Of an arm with one row that is the pose itself.

@@ -97,7 +97,8 @@ fn formulas(ground: &Ground) -> Vec<Section> {
         rotation: Rotation::from_rows([0, 1, 2].map(|r| [0, 1, 2].map(|c| names[4 * r + c]))),
         translation: Vector([3, 7, 11].map(|k| names[k])),
     };
-    let own = (model.chain.base.inverse() * pose * model.chain.tool.inverse()).matrix().map(|row| row.map(settled));
+    let own =
+        (model.chain.base.inverse() * pose * model.chain.tool.inverse()).matrix().map(|row| row.map(settled));
     let of_pose = |x: Symbol| {
         let k = names.iter().position(|name| name.as_symbol() == Some(x))?;
         Some(own[k / 4][k % 4])

@@ -136,13 +136,18 @@ impl fmt::Display for NoExercise {
             NoExercise::Values(missing) => missing.fmt(f),
             NoExercise::Count(n) => write!(f, "{n} configurations: a sheet has 1 to {MAX_COUNT}"),
             NoExercise::Configurations { found, asked } => {
-                write!(f, "{found} regular configurations with round numbers were found, {asked} are asked for")
+                write!(
+                    f,
+                    "{found} regular configurations with round numbers were found, {asked} are asked for"
+                )
             }
             NoExercise::Redundant => write!(f, "the arm has endless configurations for a pose"),
             NoExercise::Unprepared(why) => why.fmt(f),
             NoExercise::Large => write!(f, "the Jacobian is too large to be printed"),
             NoExercise::Singular(why) => why.fmt(f),
-            NoExercise::NeverSingular => write!(f, "no singularity is had as a value of a joint"),
+            NoExercise::NeverSingular => {
+                write!(f, "the arm is nowhere singular, or not where a formula says it")
+            }
         }
     }
 }

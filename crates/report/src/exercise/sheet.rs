@@ -107,7 +107,8 @@ impl<'a> Ground<'a> {
             formulas: t.formulas,
         });
         let title = words.exercise_title(kind, name);
-        let rubric = Rubric { title: Some(title.clone()), conditional: 0.5, carried: 1.0, items: items.collect() };
+        let rubric =
+            Rubric { title: Some(title.clone()), conditional: 0.5, carried: 1.0, items: items.collect() };
         let answers = asked.tasks.into_iter().flat_map(|task| {
             let mut heading = Section::new(self.names());
             heading.heading(2, Line::new(task.name));

@@ -1,8 +1,8 @@
 //! The Jacobian, and where it loses rank.
 
+use super::NoExercise;
 use super::chosen::Chosen;
 use super::sheet::{Asked, Ground, Task, counted, digits, quantity};
-use super::NoExercise;
 use crate::document::{Block, Factor, Line, Math, Proof, Section};
 use crate::explain::velocity_vocabulary;
 use crate::render::{named, too_long};
@@ -22,7 +22,8 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
     let names = velocity_vocabulary(d);
     // Along the axes of the base where it fits the page, where it is shortest otherwise.
     let in_base = JacobianModel::derive(d, Viewpoint::tool());
-    let model = if fits(&in_base, ground) { in_base } else { JacobianModel::shortest_at_origin(d, Reference::Tool) };
+    let model =
+        if fits(&in_base, ground) { in_base } else { JacobianModel::shortest_at_origin(d, Reference::Tool) };
     let matrix = model.matrix.as_ref().map_err(|_| NoExercise::Large)?;
     let rows = matrix.rows().to_vec();
     let view = &model.view;
@@ -119,6 +120,9 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
 pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, NoExercise> {
     let (s, words) = (&ground.setting, ground.words());
     let found = s.singular().as_ref().map_err(|why| NoExercise::Singular(why.clone()))?;
+    if found.common.is_empty() {
+        return Err(NoExercise::NeverSingular);
+    }
     let names = velocity_vocabulary(&s.description);
     let view = &found.jacobian.view;
     let place = words.viewpoint(view.body, view.at, None, view.axes);
@@ -126,7 +130,10 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
     let mut given = vec![];
     // Of an arm with fewer freedoms the square part of the matrix is no determinant that has a name, but that of positions.
     let is_named = matches!(found.jacobian.view.body, Reference::Tool)
-        && found.minors.first().is_some_and(|m| m.rows.len() == ROWS.len() || m.rows.iter().copied().eq(0..m.rows.len()));
+        && found
+            .minors
+            .first()
+            .is_some_and(|m| m.rows.len() == ROWS.len() || m.rows.iter().copied().eq(0..m.rows.len()));
     if let ([whole], true) = (&found.minors[..], is_named) {
         let mut answer = Section::new(names.clone());
         answer.push(Block::Formula {

@@ -72,7 +72,9 @@ impl Exercise for English {
     }
 
     fn ask_table(&self, convention: Convention) -> String {
-        format!("Give the Denavit–Hartenberg table of the arm in the convention “{convention}”, its lengths by their names.")
+        format!(
+            "Give the Denavit–Hartenberg table of the arm in the convention “{convention}”, its lengths by their names."
+        )
     }
 
     fn axes_title(&self) -> String {
@@ -107,7 +109,9 @@ impl Exercise for English {
 
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "the pose" } else { "each of the poses" };
-        format!("Give all configurations of the joints for {pose} T of the tool below: how they are found, and in numbers.")
+        format!(
+            "Give all configurations of the joints for {pose} T of the tool below: how they are found, and in numbers."
+        )
     }
 
     fn formulas_title(&self) -> String {
