@@ -10,7 +10,7 @@ mod sheet;
 mod velocity;
 
 use crate::document::Document;
-use crate::words::Tongue;
+use crate::words::{ExerciseKind, Tongue};
 use chosen::Chosen;
 use denavit::description::Description;
 use denavit::inverse::Unprepared;
@@ -19,59 +19,9 @@ use denavit::velocity::Obstacle;
 use denavit_check::marking::Rubric;
 use sheet::Asked;
 use std::fmt;
-use std::str::FromStr;
 
 /// The most configurations or poses of a sheet.
 pub const MAX_COUNT: usize = 20;
-
-/// What an exercise is about.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ExerciseKind {
-    /// The link transforms, the pose of the tool, and the pose in numbers.
-    Forward,
-    /// The Denavit–Hartenberg table of a drawing.
-    Table,
-    /// All configurations for a pose.
-    Inverse,
-    /// The Jacobian, as a formula and in numbers.
-    Jacobian,
-    /// Where the arm is singular.
-    Singularities,
-}
-
-impl ExerciseKind {
-    /// All of them.
-    pub const ALL: [ExerciseKind; 5] = [
-        ExerciseKind::Forward,
-        ExerciseKind::Table,
-        ExerciseKind::Inverse,
-        ExerciseKind::Jacobian,
-        ExerciseKind::Singularities,
-    ];
-
-    /// Its name: `fk`, `dh`, `ik`, `jacobian`, `singularities`.
-    pub fn name(self) -> &'static str {
-        match self {
-            ExerciseKind::Forward => "fk",
-            ExerciseKind::Table => "dh",
-            ExerciseKind::Inverse => "ik",
-            ExerciseKind::Jacobian => "jacobian",
-            ExerciseKind::Singularities => "singularities",
-        }
-    }
-}
-
-impl FromStr for ExerciseKind {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        let names = || ExerciseKind::ALL.map(ExerciseKind::name).join(", ");
-        ExerciseKind::ALL
-            .into_iter()
-            .find(|kind| kind.name() == name)
-            .ok_or_else(|| format!("there are no exercises of the kind `{name}`: {}", names()))
-    }
-}
 
 /// Which exercise.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

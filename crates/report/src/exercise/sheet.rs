@@ -1,10 +1,10 @@
 //! The two sheets of an exercise, put together from what is asked and answered.
 
-use super::{Exercise, ExerciseKind, ExerciseOptions};
+use super::{Exercise, ExerciseOptions};
 use crate::document::{Block, Document, Line, Math, Part, Section};
 use crate::figure::{FigureOptions, scheme};
 use crate::sections::{self, Setting};
-use crate::words::{Caption, Heading, Wording};
+use crate::words::{Caption, ExerciseKind, Heading, Wording};
 use crate::{ReportOptions, decimals};
 use denavit::description::{Description, JointKind, Variable};
 use denavit_check::marking::{Item, Rubric};

@@ -1,8 +1,57 @@
 //! What stands on exercise sheets.
 
-use crate::exercise::ExerciseKind;
 use crate::tree::{Line, Math};
 use denavit::description::Convention;
+use std::str::FromStr;
+
+/// What an exercise is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ExerciseKind {
+    /// The link transforms, the pose of the tool, and the pose in numbers.
+    Forward,
+    /// The Denavit–Hartenberg table of a drawing.
+    Table,
+    /// All configurations for a pose.
+    Inverse,
+    /// The Jacobian, as a formula and in numbers.
+    Jacobian,
+    /// Where the arm is singular.
+    Singularities,
+}
+
+impl ExerciseKind {
+    /// All of them.
+    pub const ALL: [ExerciseKind; 5] = [
+        ExerciseKind::Forward,
+        ExerciseKind::Table,
+        ExerciseKind::Inverse,
+        ExerciseKind::Jacobian,
+        ExerciseKind::Singularities,
+    ];
+
+    /// Its name: `fk`, `dh`, `ik`, `jacobian`, `singularities`.
+    pub fn name(self) -> &'static str {
+        match self {
+            ExerciseKind::Forward => "fk",
+            ExerciseKind::Table => "dh",
+            ExerciseKind::Inverse => "ik",
+            ExerciseKind::Jacobian => "jacobian",
+            ExerciseKind::Singularities => "singularities",
+        }
+    }
+}
+
+impl FromStr for ExerciseKind {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let names = || ExerciseKind::ALL.map(ExerciseKind::name).join(", ");
+        ExerciseKind::ALL
+            .into_iter()
+            .find(|kind| kind.name() == name)
+            .ok_or_else(|| format!("there are no exercises of the kind `{name}`: {}", names()))
+    }
+}
 
 /// What stands on exercise sheets.
 pub trait Exercise {

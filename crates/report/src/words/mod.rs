@@ -19,7 +19,7 @@ mod velocity;
 pub use check::Check;
 pub use dynamics::Dynamics;
 pub use english::English;
-pub use exercise::Exercise;
+pub use exercise::{Exercise, ExerciseKind};
 pub use french::French;
 pub use geometry::{Geometry, Whole};
 pub use inverse::{Coefficients, Given, Inverse};

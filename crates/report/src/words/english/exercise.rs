@@ -1,9 +1,8 @@
 //! Exercise sheets.
 
 use super::{English, counted};
-use crate::exercise::ExerciseKind;
 use crate::tree::{Line, Math};
-use crate::words::Exercise;
+use crate::words::{Exercise, ExerciseKind};
 use denavit::description::Convention;
 
 /// What an exercise is about.

@@ -1,9 +1,8 @@
 //! Feuilles d'exercices.
 
 use super::French;
-use crate::exercise::ExerciseKind;
 use crate::tree::{Line, Math};
-use crate::words::Exercise;
+use crate::words::{Exercise, ExerciseKind};
 use denavit::description::Convention;
 
 /// Le sujet d'un exercice, avec la préposition qui suit.
