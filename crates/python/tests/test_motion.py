@@ -1,6 +1,7 @@
 """Motions: those of the command line, within their limits, along their paths."""
 
 import json
+import pickle
 import re
 
 import numpy as np
@@ -163,3 +164,18 @@ def test_what_does_not_go_together():
             UR5.follow([pose, there], **arguments)
     with pytest.raises(UsageError, match="two poses"):
         UR5.follow([pose])
+
+
+def test_a_motion_can_be_pickled():
+    robot = Robot("ur5")
+    q = np.array([0.3, -1.2, 1.5, 0.4, 0.9, -0.6])
+    pose = robot.fk(q)
+    there = pose.copy()
+    there[2, 3] += 0.1
+    for motion in (
+        robot.path([q, q + 0.5], velocity=1.0, acceleration=2.0),
+        robot.follow([pose, there], start=q, duration=2.0),
+    ):
+        copied = pickle.loads(pickle.dumps(motion))
+        assert np.array_equal(copied.q, motion.q) and repr(copied) == repr(motion)
+        assert np.array_equal(copied.at([0.1, 0.7]).qd, motion.at([0.1, 0.7]).qd)

@@ -78,7 +78,7 @@ class Motions:
         manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
         from ._paths import motion_of
 
-        return motion_of(self._core.path(through.tolist(), {**manner, "law": law, "blend": blend}))
+        return motion_of(self, "path", (through.tolist(), {**manner, "law": law, "blend": blend}))
 
     def follow(
         self,
@@ -136,12 +136,12 @@ class Motions:
         entries = [p if isinstance(p, str) else _point(p) for p in pieces]
         manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
         manner.update(max_deviation=max_deviation, speed=speed, alternatives=alternatives)
-        found = self._core.follow(
-            matrix_of(poses), None if entries == ["spline"] else entries, vector(start, "start"), manner
-        )
         from ._paths import motion_of
 
-        return motion_of(found)
+        pieces_between = None if entries == ["spline"] else entries
+        return motion_of(
+            self, "follow", (matrix_of(poses).copy(), pieces_between, vector(start, "start"), manner)
+        )
 
     def _joints(self) -> int:
         return len(self._core.joints)

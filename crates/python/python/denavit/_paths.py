@@ -9,8 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._denavit import Moving
+from ._motion import Motions
 
 Floats = NDArray[np.float64]
+#: What a motion was made of: a robot, ``path`` or ``follow``, and what the module takes.
+Made = tuple[Motions, str, tuple[Any, ...]]
 
 
 class State(NamedTuple):
@@ -134,6 +137,7 @@ class Motion:
     #: Configurations in which a path of the hand can start, where that was asked for or matters.
     starts: list[Start]
     _moving: Moving = field(repr=False)
+    _made: Made = field(repr=False)
 
     def at(self, t: ArrayLike) -> State:
         """The state at times ``t``, seconds, of any shape ``(...)``: ``(..., n)`` each; at rest before and behind the motion."""
@@ -144,16 +148,21 @@ class Motion:
     def __len__(self) -> int:
         return len(self.t)
 
+    def __reduce__(self) -> tuple[Any, Made]:
+        """A copy is planned again: the same request gives the same motion."""
+        return motion_of, self._made
+
     def __repr__(self) -> str:
         return f"<Motion: {self.course}, {self.duration:.4g} s, {len(self)} samples; {self.verdict}>"
 
 
-def motion_of(found: dict[str, Any]) -> Motion:
-    """A motion out of what the module gives."""
+def motion_of(robot: Motions, manner: str, arguments: tuple[Any, ...]) -> Motion:
+    """The motion that a robot plans: ``path`` or ``follow`` with what the module takes."""
+    found: dict[str, Any] = getattr(robot._core, manner)(*arguments)
     found["poses"] = found["poses"].reshape(-1, 4, 4)
     found["events"] = [Event(**event) for event in found["events"]]
     found["starts"] = [Start(*start) for start in found["starts"]]
     found["deviation"] = None if found["deviation"] is None else Deviation(*found["deviation"])
     found["held"] = None if found["held"] is None else Held(*found["held"])
     found["clearance"] = None if found["clearance"] is None else Clearance(*found["clearance"])
-    return Motion(_moving=found.pop("moving"), **found)
+    return Motion(_moving=found.pop("moving"), _made=(robot, manner, arguments), **found)
