@@ -38,12 +38,12 @@ cargo xtask tidy [--rules | --sessions]
                                  program prints what its pages show
 cargo xtask index                the index of files, by what each says of itself
 cargo xtask surface              public items that nobody uses, by their names
-cargo xtask bench [--write | --quick] [evaluation] [dynamics] [inverse] [arms] [answers] [derivation] [descriptions] [report]
-                   [python]
+cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [arms] [answers] [derivation]
+                   [descriptions] [report] [python]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time from start to a first answer, of
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; the package beside other
-                                 packages; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
+                                 packages; kernels on a GPU where nvcc is; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there

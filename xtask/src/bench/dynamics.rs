@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Files, tips and names of the arms.
-const ARMS: [(&str, &str, &str); 2] = [("ur5_robot", "tool0", "ur5"), ("panda", "panda_link8", "panda")];
+pub(super) const ARMS: [(&str, &str, &str); 2] =
+    [("ur5_robot", "tool0", "ur5"), ("panda", "panda_link8", "panda")];
 /// Levels of instructions, with what gcc needs to use them.
 const LEVELS: [(&str, &[&str]); 2] = [("v3", &[]), ("v4", &["-mprefer-vector-width=512"])];
 const FUNCTIONS: &str = "torque,inertia,acceleration,torque_derivatives,torque_with_derivatives";
@@ -92,7 +93,7 @@ pub fn run() -> Result<String> {
 }
 
 /// What a command prints.
-fn output(command: &mut Command) -> Result<String> {
+pub(super) fn output(command: &mut Command) -> Result<String> {
     let output =
         command.stderr(Stdio::inherit()).output().with_context(|| format!("{command:?} does not start"))?;
     if !output.status.success() {

@@ -3,6 +3,7 @@
 mod answers;
 mod arms;
 mod closed_form;
+mod cuda;
 mod derivation;
 mod descriptions;
 mod dynamics;
@@ -26,6 +27,7 @@ type Part = (&'static str, &'static str, fn(bool) -> Result<String>);
 const PARTS: &[Part] = &[
     ("evaluation", "Evaluation", |_| evaluation::run()),
     ("dynamics", "Dynamics", |_| dynamics::run()),
+    (cuda::NAME, "On a GPU", |_| cuda::run()),
     ("inverse", "Inverse kinematics", |_| inverse::run()),
     ("arms", "Every arm", arms::run),
     ("answers", "First answers", |_| answers::run()),
@@ -53,7 +55,11 @@ pub fn run(arguments: &[&str], write: bool) -> Result<()> {
         anyhow::bail!("no benchmark `{unknown}`; there are {}", known.join(", "));
     }
     let mut missed = 0;
-    for (_, title, measure) in PARTS.iter().filter(|p| wanted.is_empty() || wanted.contains(&p.0)) {
+    for (name, title, measure) in PARTS.iter().filter(|p| wanted.is_empty() || wanted.contains(&p.0)) {
+        if wanted.is_empty() && *name == cuda::NAME && !cuda::is_here() {
+            println!("\n━━ {title}: left out for want of nvcc ━━");
+            continue;
+        }
         println!("\n━━ {title} ━━");
         let section = measure(is_quick)?;
         missed += section.matches(MISSED).count();

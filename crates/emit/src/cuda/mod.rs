@@ -9,6 +9,7 @@ use crate::compiled::{
     Body, Function, Pair, Step, WIDTH, about_angles, defaults, file_name, functions, inputs, opening,
 };
 use crate::names::Names;
+use crate::order::for_blocks;
 use crate::solver::{Plan, plans};
 use crate::spelling::Spelling;
 use crate::wrap::comments;
@@ -200,7 +201,7 @@ impl Source<'_> {
             out.line(&format!("const {real} {} = q[{k}];", f.names.of(symbol)));
         }
         out.blank();
-        for step in f.steps() {
+        for step in f.hoisted.iter().chain(&for_blocks(f)) {
             match step {
                 Step::Pairs(pairs) => {
                     pairs.iter().for_each(|p| self.pair(f, p, &mut out));

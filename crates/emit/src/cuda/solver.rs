@@ -153,7 +153,12 @@ impl Source<'_> {
                     s.multiplicity, s.free
                 );
             }
-            let _ = write!(text, "                ],\n                {:?},\n            ),\n", v.tolerance);
+            let _ = write!(
+                text,
+                "                ],\n                {:?},\n                {},\n            ),\n",
+                v.tolerance,
+                v.certificate.code()
+            );
         }
         text + "        ],\n    },\n"
     }

@@ -143,5 +143,17 @@ fn cuda_finds_all_solutions_thread_by_thread() {
                 assert!(values[2..].chunks(m + 4).take(values[0] as usize).any(is_it), "{name}: {known:?}");
             }
         }
+        std::fs::write(folder.join("played.py"), played(&name, &values, width)).expect("written");
+        if is_there("python3") {
+            run(&folder, &["python3", "played.py"]);
+        }
     }
+}
+
+/// The test that is emitted for machines with a GPU, with the values of the emulated kernel for those of a device: it finds
+/// nothing wrong, and what is made wrong.
+fn played(name: &str, values: &[f64], width: usize) -> String {
+    let rows: Vec<String> = values.chunks(width).map(|row| format!("{row:?}")).collect();
+    let rows = rows.join(",\n    ").replace("NaN", "float('nan')").replace("inf", "float('inf')");
+    format!("import test_{name} as test\n\nROWS = [\n    {rows}\n]\n") + include_str!("played.py.txt")
 }
