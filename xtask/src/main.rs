@@ -9,6 +9,7 @@ mod dynamics_counts;
 mod errata;
 mod languages;
 mod python;
+mod release;
 mod runner;
 mod soak;
 mod steps;
@@ -47,6 +48,8 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [a
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
+cargo xtask release [crates | sbom | program | wheel]...
+                                 everything that would be published, in target/release-files with checksums; nothing is uploaded
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
 cargo xtask counts dynamics [--check]
@@ -96,6 +99,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["languages"] => languages::run(),
         ["python"] => python::test(),
         ["wheel"] => python::wheel(),
+        ["release", ref parts @ ..] => release::run(parts),
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),
         ["counts", "--check"] => counts::run(true),
