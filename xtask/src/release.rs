@@ -14,13 +14,15 @@ const WHEEL: u64 = 40_000_000;
 /// The target of the program that runs on every Linux.
 const STATIC: &str = "x86_64-unknown-linux-musl";
 
+/// A part with its name.
+type Part = (&'static str, fn(&Path) -> Result<()>);
+
 /// Makes the parts that are named, or all: `crates`, `sbom`, `program`, `wheel`; and the sums of what is there then.
 ///
 /// # Errors
 /// If a part cannot be made, or is larger than its limit.
 pub fn run(parts: &[&str]) -> Result<()> {
-    let all: [(&str, fn(&Path) -> Result<()>); 4] =
-        [("crates", crates), ("sbom", sbom), ("program", program), ("wheel", wheel)];
+    let all: [Part; 4] = [("crates", crates), ("sbom", sbom), ("program", program), ("wheel", wheel)];
     if let Some(unknown) = parts.iter().find(|part| all.iter().all(|(name, _)| name != *part)) {
         bail!("no part {unknown}: {}", all.map(|(name, _)| name).join(", "));
     }
@@ -139,9 +141,13 @@ fn program(folder: &Path) -> Result<()> {
 /// The wheel of this system, on Linux for every distribution of the last years (manylinux, by the linker of zig), and the source.
 fn wheel(folder: &Path) -> Result<()> {
     let python = languages::python(&["maturin", "ziglang"])?;
+    // zig is asked of the Python that is found first.
+    let own = python.parent().context("a folder")?.to_path_buf();
+    let places = std::env::var_os("PATH").unwrap_or_default();
+    let places = std::env::join_paths([own].into_iter().chain(std::env::split_paths(&places)))?;
     let maturin = |words: &[&str]| {
         let mut build = command(&python);
-        build.args(["-m", "maturin"]).args(words).args([
+        build.env("PATH", &places).args(["-m", "maturin"]).args(words).args([
             "--manifest-path",
             "crates/python/Cargo.toml",
             "--out",
