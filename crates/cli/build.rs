@@ -1,7 +1,7 @@
 //! Puts the page of `denavit view` into the program.
 //!
-//! Every file of `crates/web/page/dist`, which `cargo xtask web` writes, is compressed and becomes a row of a table. The
-//! variable `DENAVIT_PAGE` names another folder, from the root of the workspace, or says `none`. A program that is built
+//! Every file of `crates/web/page/dist`, which `cargo xtask web` writes, is compressed and becomes a row of a table; in the
+//! published crate those files are its folder `page`. The variable `DENAVIT_PAGE` names another folder, from the root of the workspace, or says `none`. A program that is built
 //! without the page has an empty table. The same files give the same program: nothing of the table depends on the time
 //! or on where the folder is.
 
@@ -43,7 +43,9 @@ fn folder() -> Result<Option<PathBuf>, Box<dyn Error>> {
             Ok(Some(folder))
         }
         Err(_) => {
-            let folder = root.join("crates/web/page/dist");
+            let packed = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?).join("page");
+            let is_packed = !root.join("crates/web").is_dir() && packed.is_dir();
+            let folder = if is_packed { packed } else { root.join("crates/web/page/dist") };
             // A path that is watched and does not exist would build the program anew each time. The folder around one
             // that does not exist yet changes when it appears.
             if let Some(watched) = folder.ancestors().take(4).find(|f| f.is_dir()) {

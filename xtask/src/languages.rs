@@ -271,8 +271,9 @@ pub fn apt(arguments: &[&str]) -> Result<()> {
 /// The Python of the project's environment, with these packages.
 pub fn python(packages: &[&str]) -> Result<PathBuf> {
     let _turn = turn("python")?;
-    let python = path(".venv/bin/python");
-    let environment = || succeed(command("python3").args(["-m", "venv", ".venv"]));
+    let python = interpreter(&path(".venv"));
+    let first = if cfg!(windows) { "python" } else { "python3" };
+    let environment = || succeed(command(first).args(["-m", "venv", ".venv"]));
     if !python.exists() && environment().is_err() {
         apt(&["install", "-y", "-qq", "python3-venv"])?;
         environment()?;
@@ -287,4 +288,9 @@ pub fn python(packages: &[&str]) -> Result<PathBuf> {
         succeed(Command::new(&python).args(["-m", "pip", "install", "--quiet"]).args(missing))?;
     }
     Ok(python)
+}
+
+/// The Python of a virtual environment.
+pub fn interpreter(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }

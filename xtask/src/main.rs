@@ -48,8 +48,9 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [a
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
-cargo xtask release [crates | sbom | program | wheel]...
-                                 everything that would be published, in target/release-files with checksums; nothing is uploaded
+cargo xtask release [crates | sbom | site | program | wheel]...
+                                 everything that would be published, in target/release-files with checksums; nothing is
+                                 uploaded; the page has to be built (`cargo xtask web`)
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
 cargo xtask counts dynamics [--check]

@@ -111,7 +111,7 @@ pub fn wheel() -> Result<()> {
         fs::remove_dir_all(&environment)?;
     }
     succeed(command(&python).args(["-m", "venv"]).arg(&environment))?;
-    let own = environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let own = languages::interpreter(&environment);
     let install =
         |packages: &[&str]| succeed(command(&own).args(["-m", "pip", "install", "--quiet"]).args(packages));
     install(&[&wheel.to_string_lossy()])?;

@@ -14,15 +14,21 @@ const WHEEL: u64 = 40_000_000;
 /// The target of the program that runs on every Linux.
 const STATIC: &str = "x86_64-unknown-linux-musl";
 
+/// What is handed out otherwise than as crates, with what it is made of.
+const SHIPPED: [&str; 3] = ["denavit-cli", "denavit-python", "denavit-web"];
+/// Where `crates/cli/build.rs` finds the page when it is built from its crate.
+const PAGE_OF_CRATE: &str = "crates/cli/page";
+
 /// A part with its name.
 type Part = (&'static str, fn(&Path) -> Result<()>);
 
-/// Makes the parts that are named, or all: `crates`, `sbom`, `program`, `wheel`; and the sums of what is there then.
+/// Makes the parts that are named, or all: `crates`, `sbom`, `site`, `program`, `wheel`; and the sums of what is there then.
 ///
 /// # Errors
 /// If a part cannot be made, or is larger than its limit.
 pub fn run(parts: &[&str]) -> Result<()> {
-    let all: [Part; 4] = [("crates", crates), ("sbom", sbom), ("program", program), ("wheel", wheel)];
+    let all: [Part; 5] =
+        [("crates", crates), ("sbom", sbom), ("site", site), ("program", program), ("wheel", wheel)];
     if let Some(unknown) = parts.iter().find(|part| all.iter().all(|(name, _)| name != *part)) {
         bail!("no part {unknown}: {}", all.map(|(name, _)| name).join(", "));
     }
@@ -59,16 +65,22 @@ fn published(metadata: &Value) -> Vec<&Value> {
     packages.iter().filter(is_kept).collect()
 }
 
-/// The crates, each built as it would be by those who take it.
+/// The crates, each unpacked and built from what the others have, as by those who take it; `denavit-cli` with the page.
 fn crates(folder: &Path) -> Result<()> {
     let metadata = metadata()?;
+    let page = page()?;
     let mut package = cargo();
-    package.args(["package", "--locked", "--no-verify"]);
+    package.args(["package", "--locked"]);
     let all = published(&metadata);
     for p in &all {
         package.args(["-p", text(p, "name")]);
     }
-    succeed(&mut package)?;
+    // A crate has files of its own folder alone.
+    let own = path(PAGE_OF_CRATE);
+    copied(&page, &own)?;
+    let packaged = succeed(&mut package);
+    fs::remove_dir_all(&own)?;
+    packaged?;
     for p in &all {
         let name = format!("{}-{}.crate", text(p, "name"), text(p, "version"));
         put(&target().join("package").join(&name), &folder.join("crates").join(&name), CRATE)?;
@@ -76,56 +88,103 @@ fn crates(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// What the program and the wheel are made of, as CycloneDX 1.5.
+/// What the program, its page and the wheel are made of, as CycloneDX 1.5: on whatever system, without what only tests use.
 fn sbom(folder: &Path) -> Result<()> {
     let metadata = metadata()?;
     let packages = metadata["packages"].as_array().context("cargo metadata has packages")?;
-    let purl = |p: &Value| format!("pkg:cargo/{}@{}", text(p, "name"), text(p, "version"));
-    let component = |p: &Value| {
-        let mut one = json!({
-            "type": "library",
-            "bom-ref": purl(p),
-            "name": text(p, "name"),
-            "version": text(p, "version"),
-            "purl": purl(p),
-        });
-        if let Some(license) = p["license"].as_str() {
-            // The older spelling of "or".
-            one["licenses"] = json!([{ "expression": license.replace('/', " OR ") }]);
-        }
-        one
-    };
-    let by_id = |id: &Value| packages.iter().find(|p| p["id"] == *id).map(&purl);
     let nodes = metadata["resolve"]["nodes"].as_array().context("cargo metadata resolves")?;
-    let depends = |node: &Value| {
-        let on = node["dependencies"].as_array().map_or(&[][..], Vec::as_slice);
-        json!({ "ref": by_id(&node["id"]), "dependsOn": on.iter().filter_map(&by_id).collect::<Vec<_>>() })
+    let purl = |p: &Value| format!("pkg:cargo/{}@{}", text(p, "name"), text(p, "version"));
+    let by_id = |id: &Value| packages.iter().find(|p| p["id"] == *id);
+    let taken = |id: &Value| -> Vec<&Value> {
+        let node = nodes.iter().find(|n| n["id"] == *id);
+        let deps = node.and_then(|n| n["deps"].as_array()).map_or(&[][..], Vec::as_slice);
+        let is_taken = |d: &&Value| {
+            d["dep_kinds"].as_array().is_some_and(|kinds| kinds.iter().any(|kind| kind["kind"] != "dev"))
+        };
+        deps.iter().filter(is_taken).map(|d| &d["pkg"]).collect()
     };
-    let own = published(&metadata);
-    let version = own.first().map_or("", |p| text(p, "version"));
+    let first = |p: &&Value| p["source"].is_null() && SHIPPED.contains(&text(p, "name"));
+    let mut ids: Vec<&Value> = packages.iter().filter(first).map(|p| &p["id"]).collect();
+    let mut next = 0;
+    while let Some(id) = ids.get(next) {
+        let new: Vec<&Value> = taken(id).into_iter().filter(|d| !ids.contains(d)).collect();
+        ids.extend(new);
+        next += 1;
+    }
+    let mut components: Vec<Value> = ids
+        .iter()
+        .filter_map(|id| by_id(id))
+        .map(|p| component(&purl(p), text(p, "name"), text(p, "version"), p["license"].as_str()))
+        .collect();
+    components.extend(libraries_of_page()?);
+    components.sort_by_key(|c| text(c, "purl").to_string());
+    let depends = |id: &&Value| {
+        let on: Vec<String> = taken(id).into_iter().filter_map(by_id).map(purl).collect();
+        json!({ "ref": by_id(id).map(purl), "dependsOn": on })
+    };
+    let version = published(&metadata).first().map_or("", |p| text(p, "version"));
     let bom = json!({
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",
         "version": 1,
         "metadata": { "component": { "type": "application", "name": "denavit", "version": version } },
-        "components": packages.iter().map(component).collect::<Vec<_>>(),
-        "dependencies": nodes.iter().map(depends).collect::<Vec<_>>(),
+        "components": components,
+        "dependencies": ids.iter().map(depends).collect::<Vec<_>>(),
     });
     fs::write(folder.join("denavit.cdx.json"), serde_json::to_string_pretty(&bom)? + "\n")?;
-    println!("denavit.cdx.json: {} components", packages.len());
+    println!("denavit.cdx.json: {} components", components.len());
     Ok(())
 }
 
-/// The program with its page: on Linux without libraries of the system, where that target is there.
-fn program(folder: &Path) -> Result<()> {
-    if !path("crates/web/page/dist/index.html").is_file() {
+fn component(purl: &str, name: &str, version: &str, license: Option<&str>) -> Value {
+    let mut one =
+        json!({ "type": "library", "bom-ref": purl, "name": name, "version": version, "purl": purl });
+    if let Some(license) = license {
+        // The older spelling of "or".
+        let license = license.replace(" / ", "/").replace('/', " OR ");
+        one["licenses"] = json!([{ "expression": license }]);
+    }
+    one
+}
+
+/// The libraries that the page takes in, by its lock file.
+fn libraries_of_page() -> Result<Vec<Value>> {
+    let lock: Value = serde_json::from_str(&fs::read_to_string(path("crates/web/page/package-lock.json"))?)?;
+    let all = lock["packages"].as_object().context("package-lock.json has packages")?;
+    let is_taken = |p: &Value| p["dev"] != true && p["devOptional"] != true;
+    let taken = all.iter().filter(|(at, p)| !at.is_empty() && is_taken(p));
+    let one = |(at, p): (&String, &Value)| {
+        let name = at.rsplit("node_modules/").next().unwrap_or(at);
+        // The @ of a scope is written in percent.
+        let purl = format!("pkg:npm/{}@{}", name.replace('@', "%40"), text(p, "version"));
+        component(&purl, name, text(p, "version"), p["license"].as_str())
+    };
+    Ok(taken.map(one).collect())
+}
+
+/// The page, which is a static site, too.
+fn site(folder: &Path) -> Result<()> {
+    copied(&page()?, &folder.join("site"))
+}
+
+/// The folder of the page as it was built.
+fn page() -> Result<PathBuf> {
+    let page = path("crates/web/page/dist");
+    if !page.join("index.html").is_file() {
         bail!("the page is not built: cargo xtask web");
     }
+    Ok(page)
+}
+
+/// The program with its page: on Linux without libraries of the system.
+fn program(folder: &Path) -> Result<()> {
+    page()?;
     let is_linux = cfg!(all(target_os = "linux", target_arch = "x86_64"));
     let mut build = cargo();
     build.args(["build", "--locked", "--profile", "dist", "--package", "denavit-cli"]);
     let built = if is_linux {
-        succeed(command("rustup").args(["target", "add", STATIC]))?;
+        let added = succeed(command("rustup").args(["target", "add", STATIC]));
+        added.with_context(|| format!("the target {STATIC}, which a program for every Linux needs"))?;
         build.args(["--target", STATIC]);
         target().join(STATIC).join("dist/denavit")
     } else {
@@ -133,6 +192,13 @@ fn program(folder: &Path) -> Result<()> {
     };
     succeed(&mut build)?;
     succeed(command(&built).arg("--version"))?;
+    if is_linux {
+        let needs = command("ldd").arg(&built).output().context("ldd")?;
+        let needs = String::from_utf8_lossy(&[needs.stdout, needs.stderr].concat()).into_owned();
+        if !needs.contains("statically linked") && !needs.contains("not a dynamic executable") {
+            bail!("{} needs libraries of the system: {needs}", built.display());
+        }
+    }
     let (system, machine) = (std::env::consts::OS, std::env::consts::ARCH);
     let name = format!("denavit-{system}-{machine}{}", std::env::consts::EXE_SUFFIX);
     put(&built, &folder.join(name), PROGRAM)
@@ -159,6 +225,19 @@ fn wheel(folder: &Path) -> Result<()> {
     maturin(&[&["build", "--locked", "--profile", "dist"], zig].concat())?;
     maturin(&["sdist"])?;
     files(&folder.join("python"))?.iter().try_for_each(|file| held(file, WHEEL))
+}
+
+/// Copies all files of a folder to another, which has no others then.
+fn copied(from: &Path, to: &Path) -> Result<()> {
+    if to.exists() {
+        fs::remove_dir_all(to)?;
+    }
+    for file in files(from)? {
+        let copy = to.join(file.strip_prefix(from)?);
+        fs::create_dir_all(copy.parent().context("a folder")?)?;
+        fs::copy(&file, copy).with_context(|| file.display().to_string())?;
+    }
+    Ok(())
 }
 
 /// Copies a file that is not above its limit.
