@@ -69,8 +69,13 @@ fn published(metadata: &Value) -> Vec<&Value> {
 fn crates(folder: &Path) -> Result<()> {
     let metadata = metadata()?;
     let page = page()?;
+    let changed = command("git").args(["status", "--porcelain"]).output().context("git")?;
+    if !changed.status.success() || !changed.stdout.is_empty() {
+        bail!("the working tree has changes: {}", String::from_utf8_lossy(&changed.stdout));
+    }
     let mut package = cargo();
-    package.args(["package", "--locked"]);
+    // The page is no file of the repository.
+    package.args(["package", "--locked", "--allow-dirty"]);
     let all = published(&metadata);
     for p in &all {
         package.args(["-p", text(p, "name")]);
