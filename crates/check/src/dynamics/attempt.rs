@@ -1,6 +1,7 @@
 //! A document's dynamics read in one way: its names, its formulas, and how its bodies and its gravity are read for most of them to be right.
 
 use super::bodies::bodies;
+use super::letters::{Letters, letters, maps};
 use super::model::{Coordinates, Model, Numbers, moving_rows};
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
@@ -66,6 +67,16 @@ impl Attempt {
         self.bounds.is_cut.get()
     }
 
+    /// The places of what is right in every reading.
+    fn right(&self) -> BTreeSet<(usize, usize)> {
+        let is_right = |test: usize| self.vote.best.iter().all(|b| b.right[test]);
+        let of_piece = |(k, piece): (usize, &super::statements::Piece)| {
+            let test = self.test_of_piece[k]?;
+            is_right(test).then_some((piece.span.start, piece.span.end))
+        };
+        self.read.pieces.iter().enumerate().filter_map(of_piece).collect()
+    }
+
     fn is_perfect(&self) -> bool {
         self.vote.best.first().is_some_and(|b| b.right.iter().all(|r| *r)) && self.read.unread.is_empty()
     }
@@ -87,12 +98,20 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     let told = told(text);
     let bounds = Rc::new(Bounds::default());
     let own = subject.vocabulary();
-    let letters = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
+    let lengths = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
         let named = |k: usize| format!("{letter}{}", k + 1);
         let is_new = |w: String| mentioned.contains(&w) && own.lookup(&w).is_none_or(|e| e.is_zero());
         (0..n).any(|k| is_new(named(k)))
     });
-    let lengths: Vec<Option<char>> = std::iter::once(None).chain(letters.map(Some)).collect();
+    let lengths: Vec<Option<char>> = std::iter::once(None).chain(lengths.map(Some)).collect();
+    let (maps, is_cut) = match d.has_masses() {
+        true => (vec![], false),
+        false => maps(&letters(&mentioned, text), n),
+    };
+    if is_cut {
+        bounds.is_cut.set(true);
+    }
+    let maps: Vec<Letters> = std::iter::once(Letters::new()).chain(maps).collect();
     let variables = d.variables();
     let is_planar = n > 1
         && variables.iter().all(|v| v.kind == JointKind::Revolute)
@@ -102,23 +121,33 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
         false => &[Coordinates::Joints],
     };
     let mut found: Option<Attempt> = None;
+    let mut is_tied = false;
     for &coordinates in coordinates {
         let model = Rc::new(Model::new(d, &rows, &generic, gravity, coordinates)?);
         let voter = Voter::new(&model, &symbols, &bounds);
-        for &letter in &lengths {
-            let names = names(subject, &model.state, &rows, &mentioned, letter);
+        for (letters, &length) in maps.iter().flat_map(|m| lengths.iter().map(move |l| (m, l))) {
+            let names = names(subject, &model.state, &rows, &mentioned, length, letters);
             let roles = names.roles.clone();
             let read = statements(text, all, names, &model.state);
             let Some(attempt) = attempted(subject, &rows, &voter, coordinates, read, &roles, &told) else {
                 continue;
             };
-            if found.as_ref().is_none_or(|f| attempt.score() > f.score()) {
+            let (score, top) = (attempt.score(), found.as_ref().map(Attempt::score));
+            // Other bodies for the letters make as much right, but something else: which is meant is open.
+            is_tied &= top.is_none_or(|top| score <= top);
+            is_tied |= !letters.is_empty()
+                && top == Some(score)
+                && found.as_ref().is_some_and(|f| f.right() != attempt.right());
+            if top.is_none_or(|top| score > top) {
                 found = Some(attempt);
             }
             if found.as_ref().is_some_and(Attempt::is_perfect) {
                 return found;
             }
         }
+    }
+    if is_tied {
+        bounds.is_cut.set(true);
     }
     found
 }

@@ -11,6 +11,7 @@
 mod attempt;
 mod author;
 mod bodies;
+mod letters;
 mod matrices;
 mod model;
 mod quantity;

@@ -1,6 +1,7 @@
 //! From the statements of a document to formulas with what they may be: scalars, vectors and matrices entry by entry, and sums of
 //! products of matrices term by term.
 
+use super::letters::numbered;
 use super::model::State;
 use super::quantity::{Content, Quantity, STYLES, Style, key, of_scalar, symbol};
 use super::words::{Names, Role, words};
@@ -344,6 +345,17 @@ impl Reader<'_> {
         if is_number && !is_zero {
             return;
         }
+        let mut has_letter = false;
+        let indexed: Vec<Name> = names
+            .iter()
+            .map(|(_, name)| match numbered(name, &self.names.letters) {
+                Some(name) => {
+                    has_letter = true;
+                    name
+                }
+                None => name.clone(),
+            })
+            .collect();
         let first = names.iter().find(|(i, _)| *i == 0).map(|(_, n)| n.clone());
         if let Some(name) = &first
             && let Some(role) = self.names.roles.get(&Symbol::new(&word(name)))
@@ -396,7 +408,7 @@ impl Reader<'_> {
             let mut candidates: Vec<Quantity> = known.into_iter().collect();
             // Zero may be of any kind.
             let contents: &[Content] = if value.is_zero() { &KINDS } else { &[content] };
-            for (_, name) in &names {
+            for name in &indexed {
                 for found in contents.iter().flat_map(|c| of_scalar(name, self.n, *c)) {
                     if !candidates.contains(&found) {
                         candidates.push(found);
@@ -404,6 +416,7 @@ impl Reader<'_> {
                 }
             }
             // `(M + m) \ddot x + … = F`, `… = 0`: the equation of some joint.
+            let is_energy = |q: &Quantity| matches!(q, Quantity::Kinetic(_) | Quantity::Potential(_));
             let names_quantity = !candidates.is_empty();
             if candidates.is_empty() && is_nameless && content.accelerations {
                 candidates.extend((0..self.n).map(Quantity::Torque));
@@ -417,7 +430,10 @@ impl Reader<'_> {
                 _ => None,
             };
             self.read.pieces.push(Piece {
-                is_nameless: is_nameless && !names_quantity || is_link_force && content.accelerations,
+                // A force or a torque with a letter may be one at a point of this name.
+                is_nameless: is_nameless && !names_quantity
+                    || is_link_force && content.accelerations
+                    || has_letter && !candidates.iter().all(is_energy),
                 ..self.piece(at, span, syntax, candidates)
             });
             if let Some((i, j)) = entry {

@@ -1,5 +1,6 @@
 //! Which statements of a document are about dynamics.
 
+use super::letters::{is_body as is_lettered, letters};
 use super::quantity::{Content, Quantity, is_coriolis, is_inertia, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
@@ -73,7 +74,7 @@ struct Spoken {
     has_rates: bool,
 }
 
-fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>) -> Spoken {
+fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>, letters: &[char]) -> Spoken {
     let words = words(source);
     let has_rates = has_rates(source);
     let has = |w: &str| words.contains(w);
@@ -85,7 +86,7 @@ fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>) -> Spo
         );
         // `M_1 = [4 × 4]` is a matrix of this name.
         let is_matrix = matches!(role(w, JOINTS), Some(Role::Mass(_))) && matrices.contains(w);
-        numbered && !is_jacobian && !is_matrix
+        (numbered || is_lettered(w, letters)) && !is_jacobian && !is_matrix
     };
     let lone = ["m", "M", "I", "J"].iter().any(|w| has(w));
     let is_certain = has_accelerations(source)
@@ -111,6 +112,10 @@ pub(in crate::dynamics) fn taken(
     let grids = document.statements.iter().filter(|s| is_grid(s)).flat_map(|s| &s.sides);
     let matrices: BTreeSet<String> =
         grids.filter_map(|side| Some(word(&lone_name(text, &formula_span(side)?)?))).collect();
+    let sources = document.statements.iter().filter(|s| s.span.len() <= LONGEST);
+    let mentioned: BTreeSet<String> =
+        sources.filter_map(|s| text.get(s.span.clone())).flat_map(words).collect();
+    let letters = letters(&mentioned, text);
     let mut is_off = false;
     let mut found: Vec<(usize, Spoken)> = vec![];
     let mut is_taken = vec![false; document.statements.len()];
@@ -132,7 +137,7 @@ pub(in crate::dynamics) fn taken(
             break;
         }
         let source = text.get(statement.span.clone()).unwrap_or_default();
-        let spoken = spoken(source, has_jacobians, &matrices);
+        let spoken = spoken(source, has_jacobians, &matrices, &letters);
         let is_number = statement.sides.len() < 2;
         let is_inertia = || {
             let name = statement.sides.first().and_then(formula_span).and_then(|s| lone_name(text, &s));

@@ -1,5 +1,6 @@
 //! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
 
+use super::letters::{Letters, role_of};
 use crate::subject::Subject;
 use denavit::description::JointKind;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
@@ -214,16 +215,20 @@ pub(super) struct Names {
     pub roles: BTreeMap<Symbol, Role>,
     /// Of each joint, whether it slides.
     pub slides: Vec<bool>,
+    /// The bodies that letters stand for.
+    pub letters: Letters,
 }
 
 /// Names for an arm: `state` are the symbols of joints, rates and accelerations, `rows` the rows that move. With `lengths` names
-/// `l_1, l_2` of one letter that the table does not have are the lengths in its rows.
+/// `l_1, l_2` of one letter that the table does not have are the lengths in its rows; `letters` are those
+/// of bodies.
 pub(super) fn names(
     subject: &Subject,
     state: &super::model::State,
     rows: &[usize],
     mentioned: &BTreeSet<String>,
     lengths: Option<char>,
+    letters: &Letters,
 ) -> Names {
     let mut vocabulary = subject.vocabulary();
     let own = vocabulary.clone();
@@ -282,7 +287,7 @@ pub(super) fn names(
         }
     }
     for word in mentioned {
-        let Some(role) = role(word, n) else { continue };
+        let Some(role) = role_of(word, n, letters) else { continue };
         let known = own.lookup(word);
         // `d_1`, a length that the table has not, may be that to a centre of mass.
         let is_free = match known {
@@ -309,7 +314,7 @@ pub(super) fn names(
         roles.insert(Symbol::new(word), role);
     }
     let slides = variables.iter().map(|v| v.kind == JointKind::Prismatic).collect();
-    Names { vocabulary, roles, slides }
+    Names { vocabulary, roles, slides, letters: letters.clone() }
 }
 
 /// The length of a link, by the row that holds it.
