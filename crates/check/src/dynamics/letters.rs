@@ -32,7 +32,8 @@ pub(super) fn is_body(word: &str, letters: &[char]) -> bool {
 /// The letters that number the bodies of a document with these words, in the order in which its text first has them; none where
 /// masses have numbers.
 pub(super) fn letters(mentioned: &BTreeSet<String>, text: &str) -> Vec<char> {
-    let is_numbered = |w: &String| matches!(role(w, 9), Some(Role::Mass(Some(_)) | Role::Ten(..)));
+    // `M_2` may be a torque.
+    let is_numbered = |w: &String| w.starts_with('m') && matches!(role(w, 9), Some(Role::Mass(Some(_))));
     if mentioned.iter().any(is_numbered) {
         return vec![];
     }
