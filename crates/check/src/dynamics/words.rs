@@ -286,7 +286,14 @@ pub(super) fn names(
             }
         }
     }
-    for word in mentioned {
+    // The `d1` of a rate `qd1` is no length.
+    let is_of_rate = |word: &str| {
+        let rates = mentioned.iter().filter_map(|w| w.strip_prefix('q'));
+        word.starts_with('d')
+            && own.lookup(word).is_none()
+            && rates.into_iter().any(|w| w == word || word == "d" && w.starts_with('d'))
+    };
+    for word in mentioned.iter().filter(|w| !is_of_rate(w)) {
         let Some(role) = role_of(word, n, letters) else { continue };
         let known = own.lookup(word);
         // `d_1`, a length that the table has not, may be that to a centre of mass.

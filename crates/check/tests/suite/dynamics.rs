@@ -197,3 +197,17 @@ fn documents_without_dynamics_are_as_they_were() {
     assert_eq!(all.claims.len(), 1);
     assert!(!matches!(all.claims[0].about, denavit_check::About::Dynamics(_)), "{:?}", all.claims[0].about);
 }
+
+#[test]
+fn letters_may_number_bodies() {
+    let bars = document!("bars_with_letters.md");
+    all_right(bars, 6);
+    all_right(document!("trolley_with_letters.txt"), 5);
+    // The second bar is the first that the text has: still one is hinged to the wall.
+    let swapped = bars.1.replace("A uniform bar P", "With bar Q, $m_Q$, comes a bar P");
+    all_right((bars.0, &swapped), 6);
+    let slip = bars.1.replace("+ \\frac{1}{2} m_Q l_P l_Q", "+ m_Q l_P l_Q");
+    wrong((bars.0, &slip), &[("M_{12}", Standing::Wrong, "", "/2")]);
+    let slip = bars.1.replace("l_Q \\sin(\\theta_1+\\theta_2)", "l_Q \\cos(\\theta_1+\\theta_2)");
+    wrong((bars.0, &slip), &[("V_Q", Standing::Wrong, "\\cos", "\\sin")]);
+}
