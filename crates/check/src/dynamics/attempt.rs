@@ -2,6 +2,7 @@
 
 use super::bodies::bodies;
 use super::letters::{Letters, letters, maps};
+use super::measures::{Measures, measures};
 use super::model::{Coordinates, Model, Numbers, moving_rows};
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
@@ -36,6 +37,10 @@ pub(super) struct Attempt {
     pub is_given: bool,
     pub rows: Vec<usize>,
     bounds: Rc<Bounds>,
+    /// Formulas have numbers for symbols: what is not right may be rounded.
+    pub is_measured: bool,
+    /// The places that are right with each way to give letters to bodies, where several are as good.
+    agreed: Option<BTreeSet<(usize, usize)>>,
 }
 
 impl Attempt {
@@ -64,7 +69,17 @@ impl Attempt {
 
     /// True if not all ways to read the document were tried.
     pub fn is_cut(&self) -> bool {
-        self.bounds.is_cut.get()
+        self.bounds.is_cut.get() || self.is_open()
+    }
+
+    /// True if nothing can be called wrong.
+    pub fn is_open(&self) -> bool {
+        self.is_measured || self.agreed.is_some()
+    }
+
+    /// True for a formula that is right in one way to read letters, and in another that is as good not.
+    pub fn is_disputed(&self, span: &std::ops::Range<usize>) -> bool {
+        self.agreed.as_ref().is_some_and(|all| !all.contains(&(span.start, span.end)))
     }
 
     /// The places of what is right in every reading.
@@ -111,7 +126,14 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     if is_cut {
         bounds.is_cut.set(true);
     }
-    let maps: Vec<Letters> = std::iter::once(Letters::new()).chain(maps).collect();
+    let measures = if d.has_masses() { Measures::new() } else { measures(text) };
+    let maps = std::iter::once(Letters::new()).chain(maps);
+    let way = |letters: &Letters, length| Way { letters: letters.clone(), length, measures: Measures::new() };
+    let mut ways: Vec<Way> =
+        maps.flat_map(|m| lengths.iter().map(move |l| way(&m, *l)).collect::<Vec<_>>()).collect();
+    if !measures.is_empty() {
+        ways.push(Way { letters: Letters::new(), length: None, measures });
+    }
     let variables = d.variables();
     let is_planar = n > 1
         && variables.iter().all(|v| v.kind == JointKind::Revolute)
@@ -121,37 +143,50 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
         false => &[Coordinates::Joints],
     };
     let mut found: Option<Attempt> = None;
-    let mut is_tied = false;
     for &coordinates in coordinates {
         let model = Rc::new(Model::new(d, &rows, &generic, gravity, coordinates)?);
         let voter = Voter::new(&model, &symbols, &bounds);
-        for (letters, &length) in maps.iter().flat_map(|m| lengths.iter().map(move |l| (m, l))) {
-            let names = names(subject, &model.state, &rows, &mentioned, length, letters);
+        for way in &ways {
+            let letters = &way.letters;
+            let mut mentioned = mentioned.clone();
+            mentioned.extend(way.measures.keys().cloned());
+            let mut names = names(subject, &model.state, &rows, &mentioned, way.length, letters);
+            names.is_measured = !way.measures.is_empty();
             let roles = names.roles.clone();
             let read = statements(text, all, names, &model.state);
-            let Some(attempt) = attempted(subject, &rows, &voter, coordinates, read, &roles, &told) else {
-                continue;
-            };
-            let (score, top) = (attempt.score(), found.as_ref().map(Attempt::score));
-            // Other bodies for the letters make as much right, but something else: which is meant is open.
-            is_tied &= top.is_none_or(|top| score <= top);
-            is_tied |= !letters.is_empty()
-                && top == Some(score)
-                && found.as_ref().is_some_and(|f| f.right() != attempt.right());
-            if top.is_none_or(|top| score > top) {
-                found = Some(attempt);
+            let made = attempted(subject, &rows, &voter, coordinates, read, &roles, &told, &way.measures);
+            let Some(attempt) = made else { continue };
+            let score = attempt.score();
+            match &mut found {
+                Some(found) if found.score() > score => {}
+                Some(found) if found.score() == score => {
+                    // Other bodies for the letters make as much right, but something else: which is meant is open.
+                    let (before, now) = (found.right(), attempt.right());
+                    if !letters.is_empty() && before != now {
+                        let agreed = found.agreed.take().unwrap_or(before);
+                        found.agreed = Some(agreed.intersection(&now).copied().collect());
+                    }
+                }
+                _ => found = Some(attempt),
             }
             if found.as_ref().is_some_and(Attempt::is_perfect) {
                 return found;
             }
         }
     }
-    if is_tied {
-        bounds.is_cut.set(true);
-    }
     found
 }
 
+/// What names are taken for.
+struct Way {
+    letters: Letters,
+    /// The letter of lengths that the table does not have.
+    length: Option<char>,
+    /// The numbers that formulas have for symbols.
+    measures: Measures,
+}
+
+#[expect(clippy::too_many_arguments, reason = "all of them belong to one way to read a document")]
 fn attempted(
     subject: &Subject,
     rows: &[usize],
@@ -160,12 +195,17 @@ fn attempted(
     mut read: Read,
     roles: &BTreeMap<Symbol, Role>,
     told: &Told,
+    measures: &Measures,
 ) -> Option<Attempt> {
     let d = &subject.description;
     let n = rows.len();
     let is_given = d.has_masses();
     let given = read.given.clone();
-    let meaning = |s: Symbol| given.get(&s).copied().unwrap_or(s.into());
+    let measured = |e: Expr| match measures.is_empty() {
+        true => e,
+        false => e.substitute(|s| measures.get(s.name()).copied()),
+    };
+    let meaning = |s: Symbol| measured(given.get(&s).copied().unwrap_or(s.into()));
     let all_bodies = |told: &Told| -> Vec<Vec<Numbers>> {
         let of = |(k, &row): (usize, &usize)| match is_given {
             true => vec![given_numbers(&d.rows[row])],
@@ -196,6 +236,7 @@ fn attempted(
         tests.push(Test { value: row.value, candidates: vec![Quantity::Velocity(row.joint)] });
     }
     let (gravities, count) = gravities(subject, roles, told, &tests);
+    let gravities: Vec<[Expr; 3]> = gravities.into_iter().map(|g| g.map(measured)).collect();
     let of_link = |s: Symbol| match roles.get(&s) {
         Some(Role::Mass(Some(k))) => Some((s, *k)),
         _ => None,
@@ -233,6 +274,8 @@ fn attempted(
         is_given,
         rows,
         bounds: Rc::clone(voter.bounds),
+        is_measured: !measures.is_empty(),
+        agreed: None,
     })
 }
 

@@ -220,6 +220,10 @@ pub(super) fn bodies(
     let points = points(d, row);
     let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
     let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
+    // A rotor behind a gear.
+    let gears = prefer(of(&|r| r == Role::Gear(Some(k))), of(&|r| r == Role::Gear(None)));
+    let geared = rotors.iter().flat_map(|r| gears.iter().map(move |n| n.powi(2) * *r));
+    let rotors: Vec<Expr> = geared.chain(rotors.iter().copied()).collect();
     // Where none is named so, `J` beside `I`, or the only inertia that there is, may be that of a rotor.
     let mut ways: Vec<(Expr, Vec<Expr>)> = rotors.iter().map(|r| (*r, inertias.clone())).collect();
     ways.push((o, inertias.clone()));

@@ -13,6 +13,7 @@ mod author;
 mod bodies;
 mod letters;
 mod matrices;
+mod measures;
 mod model;
 mod quantity;
 mod repair;

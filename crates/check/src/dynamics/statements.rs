@@ -4,7 +4,7 @@
 use super::letters::numbered;
 use super::model::State;
 use super::quantity::{Content, Quantity, STYLES, Style, key, of_scalar, symbol};
-use super::words::{Names, Role, words};
+use super::words::{Names, Role, is_grouped, words};
 use crate::lexis::read;
 use crate::names::{Name, Token, tokens};
 use crate::note::Unread;
@@ -87,7 +87,7 @@ pub(super) fn lone_name(text: &str, span: &Range<usize>) -> Option<Name> {
         _ => span.end,
     };
     const WORDS: [&str; 11] = ["tau", "Tau", "Gamma", "Ekin", "Epot", "Ek", "Ep", "Ec", "KE", "PE", "Ecin"];
-    match &tokens(text, &(span.start..end), &|word| WORDS.contains(&word))?[..] {
+    match &tokens(text, &(span.start..end), &|word| WORDS.contains(&word) || is_grouped(word))?[..] {
         [Token::Name(name)] => {
             let mut name = name.clone();
             match name.base.as_str() {
@@ -342,7 +342,7 @@ impl Reader<'_> {
         let is_number = formulas.iter().all(|f| f.2.value().symbols().is_empty());
         // Zeros are entries and symbols; other numbers are values at a configuration.
         let is_zero = formulas.iter().all(|f| f.2.value().is_zero());
-        if is_number && !is_zero {
+        if is_number && !is_zero && !self.names.is_measured {
             return;
         }
         let mut has_letter = false;
@@ -374,9 +374,9 @@ impl Reader<'_> {
         let mut is_judged = false;
         let is_force =
             |name: &Name| matches!(word(name).as_str(), "F" | "f" | "u" | "τ" | "T" | "M" | "Γ" | "Q");
-        let is_zero = |f: &(usize, Range<usize>, Syntax)| f.2.value().is_zero();
+        let is_nothing = |f: &(usize, Range<usize>, Syntax)| f.2.value().is_zero();
         let is_nameless = known.is_none()
-            && (names.is_empty() && formulas.len() == 2 && formulas.iter().any(is_zero)
+            && (names.is_empty() && formulas.len() == 2 && formulas.iter().any(is_nothing)
                 || names.len() == 1 && is_force(&names[0].1));
         let symbols: Vec<(String, [usize; 3])> =
             names.iter().filter_map(|(_, n)| symbol(n, self.n)).collect();
@@ -407,13 +407,23 @@ impl Reader<'_> {
             }
             let mut candidates: Vec<Quantity> = known.into_iter().collect();
             // Zero may be of any kind.
-            let contents: &[Content] = if value.is_zero() { &KINDS } else { &[content] };
+            let hidden = [content, Content { gravity: true, ..content }];
+            let contents: &[Content] = match value.is_zero() {
+                true => &KINDS,
+                // Gravity does not show in numbers.
+                false if self.names.is_measured => &hidden,
+                false => &hidden[..1],
+            };
             for name in &indexed {
                 for found in contents.iter().flat_map(|c| of_scalar(name, self.n, *c)) {
                     if !candidates.contains(&found) {
                         candidates.push(found);
                     }
                 }
+            }
+            if is_number && !is_zero {
+                // Other numbers are values at a configuration.
+                candidates.retain(|q| matches!(q, Quantity::Inertia(..)));
             }
             // `(M + m) \ddot x + … = F`, `… = 0`: the equation of some joint.
             let is_energy = |q: &Quantity| matches!(q, Quantity::Kinetic(_) | Quantity::Potential(_));

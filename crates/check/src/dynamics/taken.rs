@@ -1,6 +1,7 @@
 //! Which statements of a document are about dynamics.
 
 use super::letters::{is_body as is_lettered, letters};
+use super::measures::measures;
 use super::quantity::{Content, Quantity, is_coriolis, is_inertia, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
@@ -116,6 +117,8 @@ pub(in crate::dynamics) fn taken(
     let mentioned: BTreeSet<String> =
         sources.filter_map(|s| text.get(s.span.clone())).flat_map(words).collect();
     let letters = letters(&mentioned, text);
+    let is_mass = |w: &String| matches!(role(w, JOINTS), Some(Role::Mass(_)));
+    let is_measured = measures(text).keys().any(is_mass);
     let mut is_off = false;
     let mut found: Vec<(usize, Spoken)> = vec![];
     let mut is_taken = vec![false; document.statements.len()];
@@ -152,7 +155,8 @@ pub(in crate::dynamics) fn taken(
             (matches!(role, Some(Role::Inertia(_) | Role::About(..))) || is_entry)
                 && spoken.words.contains("m")
         };
-        if (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement) {
+        let is_said = (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement);
+        if is_said || is_measured && is_in_numbers(text, statement) {
             is_taken[at] = true;
         }
         found.push((at, spoken));
@@ -221,6 +225,25 @@ fn is_of_dynamics(text: &str, statement: &Statement, spoken: &Spoken) -> bool {
         !of_scalar(&name, JOINTS, Content { accelerations, rates, gravity }).is_empty()
     });
     is_scalar || is_grid && (is_inertia(&name) || is_coriolis(&name) || spoken.has_rates)
+}
+
+/// True for what may be a quantity of dynamics with numbers for masses and lengths: `M_{11} = 3.7 + 1.6 \\cos q_2`.
+fn is_in_numbers(text: &str, statement: &Statement) -> bool {
+    let [left, right] = &statement.sides[..] else { return false };
+    let (Some(left), Some(right)) = (formula_span(left), formula_span(right)) else { return false };
+    let Some(name) = lone_name(text, &left) else { return false };
+    let (_, digits) = key(&name);
+    let is_other = matches!(name.base.as_str(), "A" | "J" | "I" | "T" | "R" | "P" | "X");
+    let is_large = name.base.starts_with(|c: char| c.is_uppercase() || c == 'τ');
+    let source = text.get(right).unwrap_or_default();
+    if is_other || !is_large || digits.is_empty() || !source.contains(|c: char| c.is_ascii_digit()) {
+        return false;
+    }
+    let is = |rates: bool, gravity: bool| {
+        !of_scalar(&name, JOINTS, Content { accelerations: false, rates, gravity }).is_empty()
+    };
+    let has_joint = source.contains(['c', 's']);
+    is(false, false) || has_joint && (is(has_rates(source), true) || is(true, false))
 }
 
 /// True for a value in numbers, `m_1 = 2 kg`.

@@ -96,6 +96,10 @@ impl Verdicts<'_> {
         let mut repairer = Repairer::new(self.text, self.subject, read, &self.model.state);
         for (k, piece) in read.pieces.iter().enumerate() {
             let Some(test) = self.attempt.test_of_piece[k] else { continue };
+            if self.attempt.is_disputed(&piece.span) || self.attempt.is_measured && !self.is_supported(test) {
+                said[k] = Some(Said::Open(Unproved::OpenReading));
+                continue;
+            }
             if self.fared(test) == Fared::Right {
                 let found = self.proved(piece);
                 if let Said::Right { .. } = found {
@@ -121,7 +125,7 @@ impl Verdicts<'_> {
         }
         // A helper at fault explains what uses it.
         let mut helpers: Vec<(usize, Expr, Vec<Slip>)> = vec![];
-        for h in 0..read.helpers.len() {
+        for h in (0..read.helpers.len()).filter(|_| !self.attempt.is_open()) {
             self.helper(h, &mut said, &mut helpers, &mut repairer);
         }
         let author = Author::new(&self.model, read);

@@ -21,6 +21,8 @@ pub(super) enum Role {
     Ten(usize, usize),
     /// The inertia of the rotor that turns a joint, as the joint feels it.
     Rotor(Option<usize>),
+    /// The ratio of the gear before a rotor.
+    Gear(Option<usize>),
     /// The mass that the hand carries.
     Payload,
     Gravity,
@@ -34,6 +36,9 @@ const BASES: [&str; 34] = [
     "Jxx", "Jyy", "Iz", "Ix", "Iy", "Jz", "Jx", "Jy", "MX", "MY", "MZ", "XX", "YY", "ZZ", "XY", "XZ", "YZ",
     "IA",
 ];
+
+/// Khalil's numbers of a body.
+const TEN: [&str; 10] = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"];
 
 /// The names of a text of formulas, marks of subscripts left aside.
 pub(super) fn words(source: &str) -> BTreeSet<String> {
@@ -148,6 +153,11 @@ fn without_looks(inner: &str) -> String {
         .fold(inner.to_string(), |s, look| s.replace(look, if *look == "\\ell" { "l" } else { "" }))
 }
 
+/// True for the letters of one of Khalil's numbers with others grouped into it: `ZZR_1`.
+pub(super) fn is_grouped(word: &str) -> bool {
+    word.strip_suffix('R').is_some_and(|own| own.len() == 2 && TEN.contains(&own))
+}
+
 /// What a name may stand for, in an arm of `n` bodies.
 pub(super) fn role(word: &str, n: usize) -> Option<Role> {
     let digits = word.chars().filter(char::is_ascii_digit).count();
@@ -166,7 +176,6 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
     };
     let letters: String = word.chars().filter(|c| !c.is_ascii_digit() && *c != ',').collect();
     let letters = letters.as_str();
-    const TEN: [&str; 10] = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"];
     if let (Some(k), Some(at)) = (index, TEN.iter().position(|t| *t == letters))
         && letters.len() == 2
     {
@@ -177,6 +186,7 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
     }
     match letters {
         "m" | "M" | "ml" | "mG" => return Some(Role::Mass(index)),
+        "N" | "n" | "kr" | "Kr" | "kg" | "Ng" | "ng" | "η" => return Some(Role::Gear(index)),
         "g" | "g0" if index.is_none() => return Some(Role::Gravity),
         _ => {}
     }
@@ -217,6 +227,8 @@ pub(super) struct Names {
     pub slides: Vec<bool>,
     /// The bodies that letters stand for.
     pub letters: Letters,
+    /// Formulas have numbers for what the document measures, gravity among it.
+    pub is_measured: bool,
 }
 
 /// Names for an arm: `state` are the symbols of joints, rates and accelerations, `rows` the rows that move. With `lengths` names
@@ -286,6 +298,17 @@ pub(super) fn names(
             }
         }
     }
+    let rotors: Vec<Option<usize>> = mentioned
+        .iter()
+        .filter_map(|w| match role_of(w, n, letters) {
+            Some(Role::Rotor(of)) => Some(of),
+            _ => None,
+        })
+        .collect();
+    let has_rotor = |of: Option<usize>| match of {
+        Some(_) => rotors.contains(&of) || rotors.contains(&None),
+        None => !rotors.is_empty(),
+    };
     // The `d1` of a rate `qd1` is no length.
     let is_of_rate = |word: &str| {
         let rates = mentioned.iter().filter_map(|w| w.strip_prefix('q'));
@@ -295,6 +318,11 @@ pub(super) fn names(
     };
     for word in mentioned.iter().filter(|w| !is_of_rate(w)) {
         let Some(role) = role_of(word, n, letters) else { continue };
+        if let Role::Gear(of) = role
+            && !has_rotor(of)
+        {
+            continue;
+        }
         let known = own.lookup(word);
         // `d_1`, a length that the table has not, may be that to a centre of mass.
         let is_free = match known {
@@ -321,7 +349,7 @@ pub(super) fn names(
         roles.insert(Symbol::new(word), role);
     }
     let slides = variables.iter().map(|v| v.kind == JointKind::Prismatic).collect();
-    Names { vocabulary, roles, slides, letters: letters.clone() }
+    Names { vocabulary, roles, slides, letters: letters.clone(), is_measured: false }
 }
 
 /// The length of a link, by the row that holds it.
