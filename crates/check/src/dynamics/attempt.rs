@@ -203,7 +203,7 @@ fn attempted(
     let given = read.given.clone();
     let measured = |e: Expr| match measures.is_empty() {
         true => e,
-        false => e.substitute(|s| measures.get(s.name()).copied()),
+        false => e.substitute(|s| measures.get(&*s.name()).copied()),
     };
     let meaning = |s: Symbol| measured(given.get(&s).copied().unwrap_or(s.into()));
     let all_bodies = |told: &Told| -> Vec<Vec<Numbers>> {

@@ -125,7 +125,7 @@ impl Reader<'_> {
             value: cell.1.value(),
             candidates,
             row: None,
-            is_nameless: false,
+            is_nameless: self.has_gear(cell.1.value()),
             symbol: None,
             uses: vec![],
         });
@@ -410,7 +410,7 @@ impl Reader<'_> {
                     value,
                     candidates,
                     row,
-                    is_nameless: false,
+                    is_nameless: self.has_gear(value),
                     symbol: None,
                     uses: vec![],
                 });

@@ -441,7 +441,8 @@ impl Reader<'_> {
             };
             self.read.pieces.push(Piece {
                 // A force or a torque with a letter may be one at a point of this name.
-                is_nameless: is_nameless && !names_quantity
+                is_nameless: self.has_gear(value)
+                    || is_nameless && !names_quantity
                     || is_link_force && content.accelerations
                     || has_letter && !candidates.iter().all(is_energy),
                 ..self.piece(at, span, syntax, candidates)
@@ -471,6 +472,11 @@ impl Reader<'_> {
         }
     }
 
+    /// True for a formula with the ratio of a gear: a rotor may turn with its link, too, which no model here has.
+    pub(super) fn has_gear(&self, e: Expr) -> bool {
+        e.symbols().iter().any(|s| matches!(self.names.roles.get(s), Some(Role::Gear(_))))
+    }
+
     /// A formula that is read.
     fn piece(&self, at: usize, span: &Range<usize>, syntax: &Syntax, candidates: Vec<Quantity>) -> Piece {
         Piece {
@@ -481,7 +487,7 @@ impl Reader<'_> {
             value: syntax.value(),
             candidates,
             row: None,
-            is_nameless: false,
+            is_nameless: self.has_gear(syntax.value()),
             symbol: None,
             uses: vec![],
         }

@@ -214,3 +214,23 @@ fn letters_may_number_bodies() {
     let slipped = ("T_P".to_string(), Standing::Wrong);
     assert_eq!(standings.iter().filter(|s| s.1 != Standing::Equal).collect::<Vec<_>>(), [&slipped]);
 }
+
+#[test]
+fn gears_groupings_and_numbers_are_read() {
+    let geared = document!("geared.md");
+    all_right(geared, 4);
+    all_right(document!("khalil_groups.md"), 5);
+    let numbers = document!("in_numbers.md");
+    all_right(numbers, 5);
+    // A ratio that is not squared may belong to a rotor that turns with its link, a number may be rounded: neither is called right or wrong.
+    for (document, from, to, name) in [
+        (geared, "N_1^2 J_{m1}", "N_1 J_{m1}", "M_{11}"),
+        (numbers, "0.42 +", "0.43 +", "M_{12}"),
+        (numbers, "= 7.848", "= 7.85", "G_2"),
+    ] {
+        let all = checked((document.0, &document.1.replace(from, to)));
+        let open: Vec<(&str, Standing)> =
+            all.claims.iter().filter(|c| !c.is_proved()).map(|c| (c.name.as_str(), c.standing())).collect();
+        assert_eq!(open, [(name, Standing::Undecided)], "{}", document.0);
+    }
+}
