@@ -221,7 +221,12 @@ fn gears_groupings_and_numbers_are_read() {
     all_right(geared, 4);
     all_right(document!("khalil_groups.md"), 5);
     let numbers = document!("in_numbers.md");
-    all_right(numbers, 5);
+    let all = checked(numbers);
+    assert!(
+        all.claims.len() == 5 && all.claims.iter().all(denavit_check::Claim::is_proved),
+        "{:?}",
+        all.claims
+    );
     // A ratio that is not squared may belong to a rotor that turns with its link, a number may be rounded: neither is called right or wrong.
     for (document, from, to, name) in [
         (geared, "N_1^2 J_{m1}", "N_1 J_{m1}", "M_{11}"),
