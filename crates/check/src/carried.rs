@@ -12,11 +12,12 @@ use super::plan::{Plan, Walked};
 use super::programs::Followed;
 use super::subject::Subject;
 use super::tables::{Judged, Standing as TableStanding};
-use super::walk::Piece;
+use super::walk::{Assertion, Piece};
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
+use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, equal};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// No more wrong claims are followed.
 const MAX_FOLLOWED: usize = 12;
@@ -50,6 +51,47 @@ pub(super) fn carry(
         for set in sets {
             let author = plan.with_authors(set).walk(text, document, options);
             follow(plan, walked, &author, claims, by);
+        }
+    }
+}
+
+/// What is wrong with wrong coordinates in it, but holds of the coordinates as they are, is right: `x_C \sin θ1 − y_C \cos θ1 = b3`
+/// behind a wrong `y_C`.
+pub(super) fn of_true_coordinates(
+    text: &str,
+    document: &Document,
+    plan: &Plan,
+    options: &CheckOptions,
+    walked: &Walked,
+    claims: &mut [Claim],
+) {
+    let is_wrong = |c: &Claim| c.standing() == Standing::Wrong;
+    let is_coordinate = |c: &&Claim| {
+        let of_a_point = |m: &Meaning| matches!(m, Meaning::Origin(_) | Meaning::Position);
+        let is = matches!(&c.about, About::Entry) || matches!(&c.about, About::Matrix(m) if of_a_point(m));
+        is && is_wrong(c) && c.entries.len() == 1
+    };
+    let right = |(c, a): (&Claim, &Assertion)| match &a.pieces[..] {
+        [Piece::Pair(pair)] if is_coordinate(&c) => Some((c.span.start, (plain_name(&a.name), pair.wanted))),
+        _ => None,
+    };
+    let truths: BTreeMap<usize, (String, Expr)> =
+        claims.iter().zip(&walked.assertions).filter_map(right).collect();
+    let Some(&first) = truths.keys().next() else { return };
+    let follows = |c: &Claim| is_wrong(c) && c.about == About::Equation && c.span.start > first;
+    if walked.assertions.len() > MAX_FORMULAS || !claims.iter().any(follows) {
+        return;
+    }
+    let other = plan.with_truths(truths);
+    let read = other.walk(text, document, options);
+    if read.assertions.len() != walked.assertions.len() {
+        return;
+    }
+    let (judged, _) = super::judge::judge(text, &other, &read, options.tolerance);
+    for (claim, other) in claims.iter_mut().zip(judged).filter(|(c, _)| follows(c)) {
+        if claim.span == other.span && matches!(other.standing(), Standing::Equal | Standing::Conditional) {
+            (claim.entries, claim.remarks, claim.instead) = (other.entries, other.remarks, None);
+            claim.remarks.push(Remark::OfTrueCoordinates);
         }
     }
 }

@@ -298,6 +298,8 @@ pub enum Remark {
     Placed(Box<Placement>),
     /// It is right by the document's own table, which is the same mechanism as the robot.
     ByOwnTable,
+    /// It holds of the coordinates as they are, not as they were printed before.
+    OfTrueCoordinates,
 }
 
 /// What a table leaves as it likes, while its axes are those of the robot. Joints are counted from 1.

@@ -196,6 +196,7 @@ pub fn check(
     if causes.is_empty() {
         causes = causes::causes(text, &document, &plan, options, &walked, &mut claims);
     }
+    carried::of_true_coordinates(text, &document, &plan, options, &walked, &mut claims);
     carried::carry(text, &document, &plan, options, &walked, &mut claims);
     carried::by_row_function(text, &document, &plan, options, &walked, &mut claims);
     carried::in_programs(text, &walked, &mut claims);

@@ -24,7 +24,7 @@ use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Rational, Symbol};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -37,6 +37,8 @@ pub(super) struct Plan {
     pub own_tables: Rc<Vec<OwnTable>>,
     /// Where claims stand that are taken as the author prints them.
     authors: BTreeSet<usize>,
+    /// Where coordinates stand that are taken as they are, not as they are printed, by their names.
+    truths: BTreeMap<usize, (String, Expr)>,
     /// Place in the text and number of the robot, in the order of the text.
     turns: Vec<(usize, usize)>,
     /// False where neither a robot was given nor a table stands in the document.
@@ -164,6 +166,7 @@ impl Plan {
             habits,
             own_tables,
             authors,
+            truths: BTreeMap::new(),
             turns,
             has_robot,
             programs,
@@ -334,13 +337,13 @@ impl Plan {
         let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
         let programs = self.programs.clone();
         let (has_robot, is_own, tables) = (self.has_robot, self.is_own, Rc::clone(&self.tables));
-        let posed = self.posed.clone();
-        let remarks = Rc::clone(&self.remarks);
+        let (posed, remarks) = (self.posed.clone(), Rc::clone(&self.remarks));
         Plan {
             subjects,
             habits,
             own_tables,
             authors,
+            truths: self.truths.clone(),
             turns,
             has_robot,
             programs,
@@ -354,6 +357,11 @@ impl Plan {
     /// The same document, claims at these places taken as the author prints them.
     pub fn with_authors(&self, authors: BTreeSet<usize>) -> Self {
         Plan { authors, ..self.with(&|_| None) }
+    }
+
+    /// The same document, the names of coordinates at these places taken for what they are.
+    pub fn with_truths(&self, truths: BTreeMap<usize, (String, Expr)>) -> Self {
+        Plan { truths, ..self.with(&|_| None) }
     }
 
     /// The same document, programs read in its own text.
@@ -441,6 +449,7 @@ impl Plan {
                 if !self.authors.is_empty() {
                     walk.believe(&self.authors, first);
                 }
+                walk.mend(self.truths.range(statement.span.clone()).map(|t| t.1));
             }
         }
         names.push(Rc::new(walk.lexis.names.clone()));

@@ -99,7 +99,7 @@ fn by_words(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
         text.chars().map(|c| if matches!(c, '$' | '*' | '\n' | '{' | '}') { ' ' } else { c }).collect();
     // Places stay where they are.
     let lower = plain.to_ascii_lowercase();
-    let mut found: Vec<Vector<Expr>> = vec![];
+    let mut found = out_along_an_axis(&lower, &last);
     for (at, word) in DISTANCES.iter().flat_map(|w| lower.match_indices(w).take(20)) {
         let start = edge(&plain, at.saturating_sub(FAR));
         let sentence = lower[start..at].rsplit(". ").next().unwrap_or_default();
@@ -137,6 +137,42 @@ fn by_words(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
         }
     }
     found.truncate(MOST_TOLD);
+    found
+}
+
+/// `The probe sits 0.38 m out on the x axis of frame 3`: a length in figures, an axis of the last frame behind it.
+fn out_along_an_axis(lower: &str, last: &[String]) -> Vec<Vector<Expr>> {
+    const FRAMES: [&str; 6] = ["frame ", "frames ", "system ", "repère ", "sistema ", "{"];
+    let names = Vocabulary::new();
+    let mut found = vec![];
+    for (letter, k) in [("x", 0), ("y", 1), ("z", 2)] {
+        for axis in [format!("{letter} axis of "), format!("{letter}-axis of ")] {
+            for (at, _) in lower.match_indices(&axis).take(20) {
+                let behind = lower[at + axis.len()..].trim_start_matches("the ").trim_start_matches("last ");
+                let number = FRAMES.iter().find_map(|f| behind.strip_prefix(f));
+                let number: String = number.unwrap_or("").chars().take_while(char::is_ascii_digit).collect();
+                if !last.contains(&number) {
+                    continue;
+                }
+                let before = lower[..at].rsplit(". ").next().unwrap_or_default();
+                let words: Vec<&str> = before.split_whitespace().rev().take(12).collect();
+                let is_size = |w: &str| w.starts_with(|c: char| c.is_ascii_digit());
+                let is_unit = |w: &str| matches!(w, "m" | "mm" | "cm" | "metres" | "meters" | "millimetres");
+                // From the axis backwards.
+                let pair = words.windows(2).find(|w| is_size(w[1]) && is_unit(w[0]));
+                let Some((size, unit)) = pair.and_then(|w| Some((parse(w[1], &names).ok()?, w[0]))) else {
+                    continue;
+                };
+                let sizes = if unit == "mm" { vec![size, size / Expr::int(1000)] } else { vec![size] };
+                for size in sizes {
+                    let place = Vector(std::array::from_fn(|i| if i == k { size } else { Expr::int(0) }));
+                    if !found.contains(&place) {
+                        found.push(place);
+                    }
+                }
+            }
+        }
+    }
     found
 }
 

@@ -21,6 +21,15 @@ impl Walk<'_> {
         own.next().is_some_and(|d| !is_choice(d)) && own.next().is_none()
     }
 
+    /// Takes names that are defined for other values from here on.
+    pub fn mend<'t>(&mut self, right: impl Iterator<Item = &'t (String, Expr)>) {
+        for (name, value) in right {
+            if self.lexis.names.lookup(name).is_some() {
+                self.lexis.define(name, *value);
+            }
+        }
+    }
+
     /// Takes what the claims at these places print for what follows, of the claims from number `first` on.
     pub fn believe(&mut self, places: &BTreeSet<usize>, first: usize) {
         let told: Vec<Assertion> = self.assertions[first.min(self.assertions.len())..]

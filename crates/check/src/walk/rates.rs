@@ -155,7 +155,8 @@ impl Walk<'_> {
         let is_rate = |e: &Expr| rates.contains(e);
         let words = || {
             let around = [&statement.prose, &statement.heading].into_iter().flatten();
-            around.filter_map(|s| self.text.get(s.clone())).map(str::to_lowercase)
+            let around = around.filter_map(|s| self.text.get(s.clone()));
+            around.chain([self.sentence_before(statement)]).map(str::to_lowercase)
         };
         let says_only = words().any(|w| ONLY.iter().any(|o| w.contains(o)));
         if !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
@@ -184,5 +185,14 @@ impl Walk<'_> {
                 (is_rate(&e) && !printed.contains(&e)).then(|| Expr::int(0))
             }),
         }
+    }
+    /// What stands before a statement in its sentence, or in the part of it behind a semicolon.
+    fn sentence_before(&self, statement: &Statement) -> &str {
+        const FAR: usize = 300;
+        let end = statement.span.start.min(self.text.len());
+        let before = &self.text[crate::tools::edge(self.text, end.saturating_sub(FAR))..end];
+        let part = before.rsplit("\n\n").next().unwrap_or(before);
+        let part = part.rsplit(". ").next().unwrap_or(part);
+        part.rsplit(';').next().unwrap_or(part)
     }
 }

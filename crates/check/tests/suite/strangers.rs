@@ -217,3 +217,51 @@ fn the_same_joint_in_another_solution() {
     let found = read(&format!("{table}\n\nWith θ12 = θ1 + θ2, θ2 = θ12 - θ1\n"), Format::Plain, None);
     assert_eq!(all(&found, "θ2"), [Standing::Equal], "{:?}", found.claims);
 }
+
+#[test]
+fn what_holds_of_coordinates_as_they_are_is_right_behind_wrong_ones() {
+    let of = |y: &str, squares: &str| {
+        let text = format!(
+            "{PLANAR}\n\nx = L1*cos(th1) + L2*cos(th1 + th2)\n\ny = {y}\n\n\
+             cos(th2) = (x^2 + y^2 - L1^2 {squares} L2^2)/(2*L1*L2)\n"
+        );
+        let found = read(&text, Format::Plain, None);
+        let last = found.claims.last().expect("a claim");
+        (all(&found, "y"), last.standing())
+    };
+    let right = "L1*sin(th1) + L2*sin(th1 + th2)";
+    let wrong = "L1*sin(th1) - L2*sin(th1 + th2)";
+    assert_eq!(of(right, "-"), (vec![Standing::Equal], Standing::Equal));
+    assert_eq!(of(wrong, "-"), (vec![Standing::Wrong], Standing::Equal));
+    assert_eq!(of(wrong, "+"), (vec![Standing::Wrong], Standing::Wrong));
+    assert_eq!(of(right, "+"), (vec![Standing::Equal], Standing::Wrong));
+}
+
+#[test]
+fn words_that_only_one_joint_moves_hold_to_the_end_of_their_part_of_the_sentence() {
+    let of = |sign: &str| {
+        let text = format!(
+            "{PLANAR}\n\nx = L1*cos(th1) + L2*cos(th1 + th2)\ny = L1*sin(th1) + L2*sin(th1 + th2)\n\n\
+             If only joint 1 turns, at the rate dth1, the hand moves with $\\dot x = -y\\,\\dot{{th1}}$ and \
+             $\\dot y = {sign} x\\,\\dot{{th1}}$.\n"
+        );
+        let found = read(&text, Format::Markdown, None);
+        all(&found, "\\dot y")
+    };
+    assert_eq!((of(""), of("-")), (vec![Standing::Equal], vec![Standing::Wrong]));
+}
+
+#[test]
+fn a_point_so_far_out_on_an_axis_of_the_last_frame() {
+    let of = |x: &str| {
+        let text = format!(
+            "DH table, standard convention, metres:\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n| 1 | q1 | 0 | 0.4 | 0 |\n\
+             | 2 | q2 | 0 | 0.3 | 0 |\n\nThe probe sits 0.25 m out on the x axis of frame 2.\n\n\
+             With q1 = 0 and q2 = 90 deg the tip is at\n\nx = {x} m\ny = 0.55 m\n"
+        );
+        let found = read(&text, Format::Plain, None);
+        (all(&found, "x"), all(&found, "y"))
+    };
+    assert_eq!(of("0.4"), (vec![Standing::Equal], vec![Standing::Equal]));
+    assert_eq!(of("0.7").0, [Standing::Wrong]);
+}

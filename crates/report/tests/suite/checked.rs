@@ -165,6 +165,7 @@ fn remarks() {
         Remark::FailsAt(vec![0.0, 1.5]),
         Remark::Residual(formula("D1")),
         Remark::ByOwnTable,
+        Remark::OfTrueCoordinates,
         Remark::Placed(Box::new(placed())),
     ] {
         both(&|w| w.remarked(&remark));

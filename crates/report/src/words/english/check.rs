@@ -137,6 +137,7 @@ impl Check for English {
             Remark::FailsAt(q) => format!("wrong at q = {q:.4?}, though the joint is determined there"),
             Remark::Residual(e) => format!("left minus right is {e}"),
             Remark::Placed(placement) => format!("the same mechanism: {}", placed(placement)),
+            Remark::OfTrueCoordinates => "of the coordinates as they are, not as printed before".into(),
             Remark::ByOwnTable => "by the document's own table, which is the same mechanism".into(),
         }
     }

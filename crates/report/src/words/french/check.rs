@@ -149,6 +149,9 @@ impl Check for French {
             }
             Remark::Residual(e) => say!("premier membre moins second membre : ") + &e.to_string(),
             Remark::Placed(placement) => say!("le même mécanisme : ") + &placed(placement),
+            Remark::OfTrueCoordinates => {
+                printed("pour les vraies coordonnées, non pour celles qui sont imprimées plus haut")
+            }
             Remark::ByOwnTable => printed("d'après le tableau du document, qui est le même mécanisme"),
         }
     }
