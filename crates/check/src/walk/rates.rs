@@ -189,8 +189,9 @@ impl Walk<'_> {
     /// What stands before a statement in its sentence, or in the part of it behind a semicolon.
     fn sentence_before(&self, statement: &Statement) -> &str {
         const FAR: usize = 300;
-        let end = statement.span.start.min(self.text.len());
-        let before = &self.text[crate::tools::edge(self.text, end.saturating_sub(FAR))..end];
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let start = before.char_indices().rev().nth(FAR).map_or(0, |c| c.0);
+        let before = &before[start..];
         let part = before.rsplit("\n\n").next().unwrap_or(before);
         let part = part.rsplit(". ").next().unwrap_or(part);
         part.rsplit(';').next().unwrap_or(part)
