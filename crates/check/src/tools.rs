@@ -142,28 +142,31 @@ fn by_words(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
 
 /// `The probe sits 0.38 m out on the x axis of frame 3`: a length in figures, an axis of the last frame behind it.
 fn out_along_an_axis(lower: &str, last: &[String]) -> Vec<Vector<Expr>> {
-    const FRAMES: [&str; 6] = ["frame ", "frames ", "system ", "repère ", "sistema ", "{"];
+    const UNITS: [(&str, i64); 6] =
+        [("m", 1), ("metres", 1), ("meters", 1), ("cm", 100), ("mm", 1000), ("millimetres", 1000)];
     let names = Vocabulary::new();
     let mut found = vec![];
     for (letter, k) in [("x", 0), ("y", 1), ("z", 2)] {
         for axis in [format!("{letter} axis of "), format!("{letter}-axis of ")] {
             for (at, _) in lower.match_indices(&axis).take(20) {
-                let behind = lower[at + axis.len()..].trim_start_matches("the ").trim_start_matches("last ");
-                let number = FRAMES.iter().find_map(|f| behind.strip_prefix(f));
-                let number: String = number.unwrap_or("").chars().take_while(char::is_ascii_digit).collect();
+                let behind = lower[at + axis.len()..].strip_prefix("frame ").unwrap_or_default().trim_start();
+                let number: String = behind.chars().take_while(char::is_ascii_digit).collect();
                 if !last.contains(&number) {
                     continue;
                 }
                 let before = lower[..at].rsplit(". ").next().unwrap_or_default();
                 let words: Vec<&str> = before.split_whitespace().rev().take(12).collect();
                 let is_size = |w: &str| w.starts_with(|c: char| c.is_ascii_digit());
-                let is_unit = |w: &str| matches!(w, "m" | "mm" | "cm" | "metres" | "meters" | "millimetres");
+                let unit = |w: &str| UNITS.iter().find(|u| u.0 == w).map(|u| u.1);
                 // From the axis backwards.
-                let pair = words.windows(2).find(|w| is_size(w[1]) && is_unit(w[0]));
-                let Some((size, unit)) = pair.and_then(|w| Some((parse(w[1], &names).ok()?, w[0]))) else {
+                let pair = words.windows(2).find_map(|w| Some((w[1], unit(w[0])?)).filter(|p| is_size(p.0)));
+                let Some((size, parts)) = pair.and_then(|(w, parts)| Some((parse(w, &names).ok()?, parts)))
+                else {
                     continue;
                 };
-                let sizes = if unit == "mm" { vec![size, size / Expr::int(1000)] } else { vec![size] };
+                // The table may be in the same unit, or in metres.
+                let mut sizes = vec![size, size / Expr::int(parts)];
+                sizes.dedup();
                 for size in sizes {
                     let place = Vector(std::array::from_fn(|i| if i == k { size } else { Expr::int(0) }));
                     if !found.contains(&place) {

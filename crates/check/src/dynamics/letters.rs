@@ -69,7 +69,8 @@ pub(super) fn maps(letters: &[char], n: usize) -> (Vec<Letters>, bool) {
             let none = (map.iter().filter(|c| c.is_none()).count() < free).then_some(None);
             choices.chain(none).map(|c| [&map[..], &[c]].concat()).collect()
         };
-        found = found.iter().flat_map(longer).collect();
+        // Each beginning has an end, so that no more are needed.
+        found = found.iter().flat_map(longer).take(MAX_MAPS + 1).collect();
     }
     let is_cut = found.len() > MAX_MAPS;
     let of = |map: Vec<Option<usize>>| -> Letters {
@@ -98,4 +99,19 @@ pub(super) fn numbered(name: &Name, letters: &Letters) -> Option<Name> {
     let &[letter] = &plain[..] else { return None };
     let body = letters.get(&letter)?;
     Some(Name { sub: (body + 1).to_string(), ..name.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::maps;
+
+    #[test]
+    fn long_arms_have_few_maps() {
+        let (found, is_cut) = maps(&['a', 'b', 'c', 'd', 'e', 'f'], 40);
+        assert!(is_cut && found.len() == super::MAX_MAPS);
+        assert!(found.iter().all(|map| map.len() == 6), "each letter is a body");
+        let (found, is_cut) = maps(&['A', 'B'], 3);
+        assert_eq!((found.len(), is_cut), (6, false));
+        assert_eq!(found[0], [('A', 0), ('B', 1)].into());
+    }
 }

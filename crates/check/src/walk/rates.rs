@@ -186,6 +186,7 @@ impl Walk<'_> {
             }),
         }
     }
+
     /// What stands before a statement in its sentence, or in the part of it behind a semicolon.
     fn sentence_before(&self, statement: &Statement) -> &str {
         const FAR: usize = 300;

@@ -27,7 +27,7 @@ use super::MAX_SAMPLES;
 use super::error::{Failure, MotionError, finite};
 use super::limits::Limits;
 use super::path::JointPath;
-use super::timing::TorqueLimits;
+use super::timing::{TorqueLimits, fitting};
 use torques::Loads;
 
 /// Where a limit is exceeded between the points at which it is imposed it is tightened there, so many times at most.
@@ -84,12 +84,7 @@ impl JerkLimited {
         torque_limits: Option<&TorqueLimits>,
     ) -> Result<SmoothTimedPath<P>, MotionError> {
         let jerk = limits.jerk().ok_or(MotionError::NoJerkLimits)?;
-        let dofs = [Some(("limits", limits.dof())), torque_limits.map(|t| ("torque limits", t.dof()))];
-        for (what, found) in dofs.into_iter().flatten() {
-            if found != path.dof() {
-                return Err(MotionError::Joints { what, expected: path.dof(), found });
-            }
-        }
+        fitting(path.dof(), limits, torque_limits)?;
         if self.intervals > MAX_SAMPLES {
             return Err(MotionError::TooMany("intervals", self.intervals as f64));
         }

@@ -17,6 +17,7 @@ pub use grid::{Grid, MIN_INTERVALS};
 pub(super) use grid::{divided, is_corner};
 pub use timed::TimedPath;
 pub use torques::TorqueLimits;
+pub(super) use torques::fitting;
 
 use super::error::{MotionError, finite};
 use super::limits::Limits;
@@ -87,12 +88,7 @@ impl TimeOptimal {
         limits: &Limits,
         torque_limits: Option<&TorqueLimits>,
     ) -> Result<TimedPath<P>, MotionError> {
-        let dofs = [Some(("limits", limits.dof())), torque_limits.map(|t| ("torque limits", t.dof()))];
-        for (what, found) in dofs.into_iter().flatten() {
-            if found != path.dof() {
-                return Err(MotionError::Joints { what, expected: path.dof(), found });
-            }
-        }
+        fitting(path.dof(), limits, torque_limits)?;
         finite("speeds at the ends", &[self.start_speed, self.end_speed])?;
         for (s, speed) in [(0.0, self.start_speed), (path.end(), self.end_speed)] {
             if speed < 0.0 {

@@ -9,7 +9,7 @@ use super::grid::Sampled;
 use super::stage::{Strip, strip};
 use crate::dynamics::{Dynamics, gravity_torques, inertia_matrix, inverse_dynamics};
 use crate::motion::error::{MotionError, finite};
-use crate::motion::limits::Range;
+use crate::motion::limits::{Limits, Range};
 use crate::motion::path::{JointPath, PathPoint, Side};
 
 /// The part of the margin at rest that the tangent's constant takes at most.
@@ -22,6 +22,19 @@ const LEAST: f64 = 1e-3;
 pub struct TorqueLimits {
     arm: Dynamics<f64>,
     ranges: Vec<Range>,
+}
+
+/// Refuses limits that are not those of so many joints.
+pub(in crate::motion) fn fitting(
+    dof: usize,
+    limits: &Limits,
+    torques: Option<&TorqueLimits>,
+) -> Result<(), MotionError> {
+    let dofs = [Some(("limits", limits.dof())), torques.map(|t| ("torque limits", t.dof()))];
+    match dofs.into_iter().flatten().find(|(_, found)| *found != dof) {
+        Some((what, found)) => Err(MotionError::Joints { what, expected: dof, found }),
+        None => Ok(()),
+    }
 }
 
 /// The torque of a joint at a point of the path, a u + b x + c + f + k √x.
