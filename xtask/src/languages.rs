@@ -270,18 +270,25 @@ pub fn apt(arguments: &[&str]) -> Result<()> {
 
 /// The Python of the project's environment, with these packages.
 pub fn python(packages: &[&str]) -> Result<PathBuf> {
+    python_in(&path(".venv"), packages)
+}
+
+/// The Python of an environment, with these packages: `name`, or `name==version`.
+pub fn python_in(folder: &Path, packages: &[&str]) -> Result<PathBuf> {
     let _turn = turn("python")?;
-    let python = interpreter(&path(".venv"));
+    let python = interpreter(folder);
     let first = if cfg!(windows) { "python" } else { "python3" };
-    let environment = || succeed(command(first).args(["-m", "venv", ".venv"]));
+    let environment = || succeed(command(first).args(["-m", "venv"]).arg(folder));
     if !python.exists() && environment().is_err() {
         apt(&["install", "-y", "-qq", "python3-venv"])?;
         environment()?;
     }
-    let has = |package: &str| {
-        let mut pip = Command::new(&python);
-        pip.args(["-m", "pip", "show", "--quiet", package]).stderr(Stdio::null());
-        pip.status().is_ok_and(|s| s.success())
+    let mut pip = Command::new(&python);
+    let listed = pip.args(["-m", "pip", "list", "--format", "freeze"]).stderr(Stdio::null()).output()?;
+    let listed = String::from_utf8_lossy(&listed.stdout).to_lowercase().replace('_', "-");
+    let has = |package: &&&str| {
+        let name = package.to_lowercase().replace('_', "-");
+        listed.lines().any(|l| l == name || l.split("==").next() == Some(&name))
     };
     let missing: Vec<&&str> = packages.iter().filter(|p| !has(p)).collect();
     if !missing.is_empty() {

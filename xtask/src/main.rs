@@ -7,10 +7,12 @@ mod descriptions;
 mod documents;
 mod dynamics_counts;
 mod errata;
+mod folders;
 mod languages;
 mod python;
 mod release;
 mod runner;
+mod site;
 mod soak;
 mod steps;
 mod test;
@@ -48,6 +50,7 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [a
 cargo xtask languages            builds and runs generated source code in every language
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
+cargo xtask site                 the documentation as a site for any static host, in target/site; with the page, where it is built
 cargo xtask release [crates | sbom | site | program | wheel]...
                                  everything that would be published, in target/release-files with checksums; nothing is
                                  uploaded; the page has to be built (`cargo xtask web`)
@@ -100,6 +103,7 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["languages"] => languages::run(),
         ["python"] => python::test(),
         ["wheel"] => python::wheel(),
+        ["site"] => site::build().map(drop),
         ["release", ref parts @ ..] => release::run(parts),
         ["miri"] => soak::miri(),
         ["counts"] => counts::run(false),

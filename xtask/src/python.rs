@@ -9,6 +9,10 @@ use std::process::Command;
 /// The package without its module.
 const PACKAGE: &str = "crates/python/python/denavit";
 const TESTS: &str = "crates/python/tests";
+/// What makes the documentation of it.
+const SITE: &str = "docs/site";
+/// How ruff is to look at it.
+const RULES: &str = "crates/python/pyproject.toml";
 /// What tests use.
 const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "sympy", "jax", "ikpy", "nbformat"];
 /// What reads the package itself.
@@ -21,27 +25,29 @@ const READERS: &[&str] = &["mypy", "basedpyright", "ruff"];
 pub fn test() -> Result<()> {
     let python = languages::python(&[PACKAGES, READERS].concat())?;
     let program = program()?;
-    let folder = put_together()?;
+    let folder = built(&scratch()?.join("python"))?;
     style(&python)?;
     types(&python, &folder)?;
     let mut tests = pytest(&python, &program)?;
     succeed(tests.env("PYTHONPATH", &folder))
 }
 
-/// The package with its module, in a folder of its own.
-fn put_together() -> Result<PathBuf> {
+/// The package with its module, beside the program, put into a folder.
+///
+/// # Errors
+/// If it does not build, or a file cannot be copied.
+pub fn built(folder: &Path) -> Result<PathBuf> {
     // As the program is built, so that both take the same libraries.
     let arguments = ["build", "--quiet", "--locked", "--workspace", "--lib", "--bins", "--examples"];
     succeed(cargo().args(arguments))?;
-    assembled("debug")
+    assembled("debug", folder)
 }
 
-/// The package with the module that was built to a folder of the target, in a folder of its own.
+/// The package with the module that was built to a folder of the target, put into another folder.
 ///
 /// # Errors
 /// If a file cannot be copied.
-pub fn assembled(built: &str) -> Result<PathBuf> {
-    let folder = scratch()?.join("python");
+pub fn assembled(from: &str, folder: &Path) -> Result<PathBuf> {
     let package = folder.join("denavit");
     if package.exists() {
         fs::remove_dir_all(&package)?;
@@ -58,15 +64,22 @@ pub fn assembled(built: &str) -> Result<PathBuf> {
         () if cfg!(target_os = "macos") => ("libdenavit_python.dylib", "_denavit.abi3.so"),
         () => ("libdenavit_python.so", "_denavit.abi3.so"),
     };
-    fs::copy(target().join(built).join(library), package.join(module))?;
-    Ok(folder)
+    fs::copy(target().join(from).join(library), package.join(module))?;
+    Ok(folder.to_path_buf())
 }
 
 /// ruff finds nothing in the package and its tests, and all is as it formats it.
 fn style(python: &Path) -> Result<()> {
     for check in [&["check", "--quiet"][..], &["format", "--check", "--quiet"]] {
         let mut ruff = command(python);
-        succeed(ruff.args(["-m", "ruff"]).args(check).args(["--no-cache", PACKAGE, TESTS]))?;
+        succeed(ruff.args(["-m", "ruff"]).args(check).args([
+            "--no-cache",
+            "--config",
+            RULES,
+            PACKAGE,
+            TESTS,
+            SITE,
+        ]))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Everything that would be published, in `target/release-files`; nothing is uploaded.
 
-use crate::{cargo, command, languages, path, succeed, target};
+use crate::{cargo, command, folders, languages, path, succeed, target};
 use anyhow::{Context, Result, bail};
 use serde_json::{Value, json};
 use std::fs;
@@ -82,7 +82,7 @@ fn crates(folder: &Path) -> Result<()> {
     }
     // A crate has files of its own folder alone.
     let own = path(PAGE_OF_CRATE);
-    copied(&page, &own)?;
+    folders::copied(&page, &own)?;
     let packaged = succeed(&mut package);
     fs::remove_dir_all(&own)?;
     packaged?;
@@ -167,18 +167,15 @@ fn libraries_of_page() -> Result<Vec<Value>> {
     Ok(taken.map(one).collect())
 }
 
-/// The page, which is a static site, too.
+/// The documentation with the page in it, for any static host.
 fn site(folder: &Path) -> Result<()> {
-    copied(&page()?, &folder.join("site"))
+    page()?;
+    folders::copied(&crate::site::build()?, &folder.join("site"))
 }
 
 /// The folder of the page as it was built.
 fn page() -> Result<PathBuf> {
-    let page = path("crates/web/page/dist");
-    if !page.join("index.html").is_file() {
-        bail!("the page is not built: cargo xtask web");
-    }
-    Ok(page)
+    crate::web::built().context("the page is not built: cargo xtask web")
 }
 
 /// The program with its page: on Linux without libraries of the system.
@@ -229,20 +226,7 @@ fn wheel(folder: &Path) -> Result<()> {
         if cfg!(target_os = "linux") { &["--zig", "--compatibility", "manylinux2014"] } else { &[] };
     maturin(&[&["build", "--locked", "--profile", "dist"], zig].concat())?;
     maturin(&["sdist"])?;
-    files(&folder.join("python"))?.iter().try_for_each(|file| held(file, WHEEL))
-}
-
-/// Copies all files of a folder to another, which has no others then.
-fn copied(from: &Path, to: &Path) -> Result<()> {
-    if to.exists() {
-        fs::remove_dir_all(to)?;
-    }
-    for file in files(from)? {
-        let copy = to.join(file.strip_prefix(from)?);
-        fs::create_dir_all(copy.parent().context("a folder")?)?;
-        fs::copy(&file, copy).with_context(|| file.display().to_string())?;
-    }
-    Ok(())
+    folders::files(&folder.join("python"))?.iter().try_for_each(|file| held(file, WHEEL))
 }
 
 /// Copies a file that is not above its limit.
@@ -262,24 +246,13 @@ fn held(file: &Path, limit: u64) -> Result<()> {
     Ok(())
 }
 
-/// All files below a folder, in order.
-fn files(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = vec![];
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?.path();
-        if entry.is_dir() { found.extend(files(&entry)?) } else { found.push(entry) }
-    }
-    found.sort();
-    Ok(found)
-}
-
 /// `SHA256SUMS` over all files, as `sha256sum --check` reads it.
 fn sums(folder: &Path) -> Result<()> {
     let list = folder.join("SHA256SUMS");
     if list.exists() {
         fs::remove_file(&list)?;
     }
-    let names: Vec<PathBuf> = files(folder)?
+    let names: Vec<PathBuf> = folders::files(folder)?
         .iter()
         .map(|f| f.strip_prefix(folder).map(Path::to_path_buf))
         .collect::<Result<_, _>>()?;

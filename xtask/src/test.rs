@@ -39,6 +39,7 @@ const ASIDE: &[Step] = &[
     step("benchmark", &["step", "benchmark"]),
     step("languages", &["languages"]),
     step("python", &["python"]),
+    step("site", &["site"]),
 ];
 /// After an edit.
 const QUICK: &[Step] = &[

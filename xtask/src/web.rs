@@ -159,6 +159,12 @@ pub fn run(fast: bool) -> Result<()> {
     limits(&files)
 }
 
+/// The folder of the page, if it is built.
+pub fn built() -> Option<PathBuf> {
+    let site = path(SITE);
+    site.join("index.html").is_file().then_some(site)
+}
+
 /// The page as its tests take it, if it can be built here.
 ///
 /// # Errors
@@ -181,7 +187,7 @@ pub fn for_tests() -> Result<()> {
 /// # Errors
 /// If there is no browser, the page does not do what its tests say, or is too slow.
 pub fn drive(is_timed: bool) -> Result<()> {
-    if !path(SITE).join("index.html").exists() {
+    if built().is_none() {
         println!("{SKIPPED}the page is not built (`cargo xtask web`)");
         return Ok(());
     }

@@ -19,8 +19,8 @@ use std::sync::{Mutex, PoisonError};
 
 /// Functions of a robot as one compiled program; what they have in common is computed once.
 ///
-/// Call it with the vectors that `arguments` names, `(..., n)` each, broadcast against each other; `out` takes the result where there
-/// is one function, `threads` is how many threads compute many rows. One function gives its array, several a tuple of views, in
+/// Call it with the vectors that `arguments` names, ``(..., n)`` each, broadcast against each other; ``out`` takes the result where there
+/// is one function, ``threads`` is how many threads compute many rows. One function gives its array, several a tuple of views, in
 /// their order. One state is computed by machine code, made for this processor, many in blocks on vector instructions.
 #[pyclass(frozen, module = "denavit")]
 pub struct Compiled {

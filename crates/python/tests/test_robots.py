@@ -219,7 +219,7 @@ def test_code(tmp_path):
         robot.generate("c", ["dance"])
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/migration.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/migration.md", "docs/site/index.md"])
 def test_programs_of_pages_run(page, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     programs = (ROOT / page).read_text(encoding="utf-8").split("```python\n")[1:]

@@ -3,7 +3,7 @@
 use super::MISSED;
 use crate::languages::python as environment;
 use crate::python::assembled;
-use crate::{cargo, command, succeed, target};
+use crate::{cargo, command, scratch, succeed, target};
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 use std::fmt::Write;
@@ -33,7 +33,7 @@ pub fn run() -> Result<String> {
     succeed(cargo().args(build).args(package).arg("--lib"))?;
     succeed(cargo().args(build).args(package).args(["--example", "beside"]))?;
     let python = environment(PACKAGES)?;
-    let folder = assembled("dist")?;
+    let folder = assembled("dist", &scratch()?.join("python"))?;
     let library = printed(&mut command(target().join("dist/examples/beside")))?;
     let all = printed(command(&python).arg("bench/python/bench.py").env("PYTHONPATH", folder))?;
     let number = |of: &Value, key: &str| of[key].as_f64().with_context(|| format!("no `{key}`"));

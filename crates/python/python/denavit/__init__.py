@@ -47,7 +47,7 @@ if TYPE_CHECKING:
         Step,
     )
     from ._documents import Checked, Claim, Exercise, Mark, Marked, check
-    from ._paths import Clearance, Deviation, Event, Motion, Start, State
+    from ._paths import Clearance, Deviation, Event, Held, Motion, Start, State
 
 __all__ = [
     "AccelerationDerivatives",
@@ -71,6 +71,7 @@ __all__ = [
     "FileError",
     "Finding",
     "ForwardFormulas",
+    "Held",
     "InverseFormulas",
     "JacobianFormulas",
     "Joint",
@@ -107,7 +108,7 @@ _LATE = {
         "Step",
     ],
     "_documents": ["Checked", "Claim", "Exercise", "Mark", "Marked", "check"],
-    "_paths": ["Clearance", "Deviation", "Event", "Motion", "Start", "State"],
+    "_paths": ["Clearance", "Deviation", "Event", "Held", "Motion", "Start", "State"],
 }
 
 

@@ -102,6 +102,17 @@ class Chain:
     Raises `UsageError` if the mask has another length; the errors of `Robot.from_file`.
     """
 
+    #: Its name.
+    name: str
+    #: Its links.
+    links: list[Link]
+    #: Whether inverse kinematics moves each link.
+    active_links_mask: NDArray[np.bool_]
+    #: The arm as this package has it, to the last link.
+    robot: Robot
+    #: How far the answer that was found last is from the target: metres and units of axes.
+    residual: float
+
     def __init__(
         self,
         links: Sequence[Link],
@@ -152,18 +163,14 @@ class Chain:
         mask: Optional[Sequence[bool]],
         name: str,
     ) -> None:
-        #: Its name.
         self.name = name
-        #: Its links.
         self.links = list(links)
         if mask is not None and len(mask) != len(self.links):
             raise UsageError(
                 f"the mask of active links has {len(mask)} entries; {len(self.links)} are needed"
             )
-        #: Whether inverse kinematics moves each link.
         self.active_links_mask = np.array([True] * len(self.links) if mask is None else mask, dtype=bool)
         self._robots = robots
-        #: The arm as this package has it, to the last link.
         self.robot = robots.whole
         own = [joint.name for joint in self.robot.joints]
         moving = [k for k, link in enumerate(self.links) if link.joint_type != "fixed"]
@@ -173,7 +180,6 @@ class Chain:
             )
         self._moving = np.array(moving, dtype=int)
         self._last = np.zeros(3) if last is None else _three(last)
-        #: How far the answer that was found last is from the target: metres and units of axes.
         self.residual = 0.0
 
     def __len__(self) -> int:
