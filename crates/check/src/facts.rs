@@ -441,6 +441,8 @@ pub enum Condition {
 pub enum Unproved {
     /// A length has no value.
     NoLength,
+    /// A joint's rate has no value.
+    NoRate,
     /// Neither proved equal nor found different.
     NotFound,
     /// It is right by the document's own table, which is not that of the robot.

@@ -21,32 +21,13 @@ const STEPS: usize = 40;
 /// Residuals in units of what rounding explains, up to which a value is right.
 const ENOUGH: f64 = 2.0;
 /// No more answers are looked at.
-const MAX_ANSWERS: usize = 200;
+pub(super) const MAX_ANSWERS: usize = 200;
 
 /// A claim for each of the numbers; those of which the pose is not known are left out.
 pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
-    let answers = &walked.answered[..walked.answered.len().min(MAX_ANSWERS)];
-    let mut groups: Vec<&[Answered]> = vec![];
-    let mut at = 0;
-    while at < answers.len() {
-        let first = &answers[at];
-        let line = |a: &Answered| text[..a.span.start].matches('\n').count();
-        let same = |a: &&Answered| a.subject == first.subject && line(a) == line(first);
-        let mut count = answers[at..].iter().take_while(same).count();
-        // One joint a line, one behind the other, is one configuration.
-        let is_alone = |k: usize| {
-            let a = &answers[k];
-            let is_joint = plan.subjects[a.subject].joints().contains(&a.of);
-            let is_new = answers[at..k].iter().all(|b| b.of != a.of);
-            is_joint && is_new && a.values.len() == 1 && a.subject == first.subject
-        };
-        if count == 1 && is_alone(at) {
-            let goes_on = |k: &usize| line(&answers[*k]) == line(&answers[*k - 1]) + 1 && is_alone(*k);
-            count += (at + 1..answers.len()).take_while(goes_on).count();
-        }
-        groups.push(&answers[at..at + count]);
-        at += count;
-    }
+    let answers: Vec<Answered> =
+        walked.answered.iter().filter(|a| !a.is_given).take(MAX_ANSWERS).cloned().collect();
+    let groups = groups(text, plan, &answers);
     // Lengths without a unit may be in millimetres where those of the robot are in metres.
     let units = if plan.habits.millimetres { &[1.0, 1e-3][..] } else { &[1.0] };
     let verdicts = |group: &[Answered], is_exact: bool| {
@@ -95,18 +76,49 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
             Some(false) if is_meant => Finding::Wrong(Box::new(wrong(plan, answer, group))),
             _ => Finding::Undecided { why: Unproved::NoPose },
         };
-        let entry = Entry { place: None, span: answer.value.clone(), finding, identities: vec![] };
-        Claim {
-            span: answer.span.clone(),
-            name: answer.name.clone(),
-            about: About::Configuration,
-            entries: vec![entry],
-            instead: None,
-            remarks: vec![],
-            robot: answer.subject,
-        }
+        claim(answer, finding)
     });
     claims.collect()
+}
+
+/// The numbers of a line together, and those of lines one behind the other with one joint each.
+pub(super) fn groups<'a>(text: &str, plan: &Plan, answers: &'a [Answered]) -> Vec<&'a [Answered]> {
+    let mut groups: Vec<&[Answered]> = vec![];
+    let mut at = 0;
+    while at < answers.len() {
+        let first = &answers[at];
+        let line = |a: &Answered| text[..a.span.start].matches('\n').count();
+        let same = |a: &&Answered| a.subject == first.subject && line(a) == line(first);
+        let mut count = answers[at..].iter().take_while(same).count();
+        // One joint a line, one behind the other, is one configuration.
+        let is_alone = |k: usize| {
+            let a = &answers[k];
+            let is_joint = plan.subjects[a.subject].joints().contains(&a.of);
+            let is_new = answers[at..k].iter().all(|b| b.of != a.of);
+            is_joint && is_new && a.values.len() == 1 && a.subject == first.subject
+        };
+        if count == 1 && is_alone(at) {
+            let goes_on = |k: &usize| line(&answers[*k]) == line(&answers[*k - 1]) + 1 && is_alone(*k);
+            count += (at + 1..answers.len()).take_while(goes_on).count();
+        }
+        groups.push(&answers[at..at + count]);
+        at += count;
+    }
+    groups
+}
+
+/// A claim of a number that a joint is said to have.
+pub(super) fn claim(answer: &Answered, finding: Finding) -> Claim {
+    let entry = Entry { place: None, span: answer.value.clone(), finding, identities: vec![] };
+    Claim {
+        span: answer.span.clone(),
+        name: answer.name.clone(),
+        about: About::Configuration,
+        entries: vec![entry],
+        instead: None,
+        remarks: vec![],
+        robot: answer.subject,
+    }
 }
 
 /// What is said of a wrong value: the one that goes with the others of its line, or else the right one nearest to it.
@@ -159,7 +171,7 @@ enum Reached {
 }
 
 /// Configurations that reach a pose.
-struct Search<'a> {
+pub(super) struct Search<'a> {
     subject: &'a Subject,
     group: &'a [Answered],
     is_angle: Vec<bool>,
@@ -181,7 +193,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Nothing if the pose does not determine the joints.
-    fn new(subject: &'a Subject, group: &'a [Answered], is_exact: bool) -> Option<Self> {
+    pub(super) fn new(subject: &'a Subject, group: &'a [Answered], is_exact: bool) -> Option<Self> {
         let kinds = subject.description.variables();
         let is_angle: Vec<bool> = kinds.iter().map(|v| v.kind == JointKind::Revolute).collect();
         let targets = &group.first()?.targets;
@@ -383,7 +395,7 @@ impl<'a> Search<'a> {
     }
 
     /// For each value: whether some configuration with it reaches the pose; nothing where that is not known.
-    fn verdicts(&self) -> Vec<Option<bool>> {
+    pub(super) fn verdicts(&self) -> Vec<Option<bool>> {
         let mut random = Random(11);
         // `q2 = 60° or q2 = -60°` are two answers.
         let twice = (1..self.group.len()).any(|k| self.group[..k].iter().any(|a| a.of == self.group[k].of));

@@ -5,10 +5,12 @@ use super::facts::Jacobian;
 use super::matrix::Matrix;
 use super::names::Name;
 use super::subject::Subject;
+use denavit::description::JointKind;
 use denavit::forward::Reference;
 use denavit_reading::slip::{Points, Value};
+use denavit_symbolic::factor::factored;
 use denavit_symbolic::readable::simplify;
-use denavit_symbolic::{Expr, Node, Symbol, equal};
+use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
 use rustc_hash::FxHashMap;
 
 /// Which rows the name of a Jacobian tells.
@@ -232,6 +234,12 @@ impl Subject {
         found
     }
 
+    /// True if the place of the hand is what its joints are for: with three at most, it tells them.
+    pub fn is_for_places(&self) -> bool {
+        let is_zero = |d: Expr| equal(d, Expr::int(0)).is_equal();
+        self.joints().len() <= 3 && self.determinant(Part::Linear).is_some_and(|d| !is_zero(d))
+    }
+
     /// What a determinant that does not vanish everywhere becomes where a joint has a value, if it vanishes there.
     pub fn singular_at(&self, joint: Symbol, value: Expr) -> Option<Expr> {
         let zero = Expr::int(0);
@@ -239,6 +247,43 @@ impl Subject {
         let at = |e: Expr| e.substitute(|s| (s == joint).then_some(value));
         let vanishes = |e: Expr| equal(e, zero).is_equal();
         all.filter(|d| !vanishes(*d)).map(at).find(|e| vanishes(*e))
+    }
+
+    /// A formula that is zero only where the arm is singular, as it divides the determinant: the formula times what does not
+    /// move, and the factor of the determinant that it is.
+    pub fn singular_where(&self, formula: Expr) -> Option<[Expr; 2]> {
+        /// Configurations that are tried: joints at one of four places each.
+        const MAX_MOVING: usize = 4;
+        let variables = self.description.variables();
+        let moving = |e: Expr| -> Vec<Symbol> {
+            let symbols = e.symbols();
+            variables.iter().map(|v| v.symbol).filter(|s| symbols.contains(s)).collect()
+        };
+        let of = moving(formula);
+        if of.is_empty() || of.len() > MAX_MOVING {
+            return None;
+        }
+        // What two proportional formulas have for a ratio is known from one configuration where they are not zero.
+        let at = |e: Expr, number: usize| {
+            e.substitute(|s| {
+                let place = of.iter().position(|o| *o == s)?;
+                let step = [0, 1, 3, 2][number >> (2 * place) & 3];
+                let slides = variables.iter().any(|v| v.symbol == s && v.kind == JointKind::Prismatic);
+                let quarter = Expr::pi() * Expr::from(Rational::new(step, 4));
+                Some(if slides { Expr::int(step + 1) } else { quarter })
+            })
+        };
+        let is_zero = |e: Expr| equal(e, Expr::int(0)).is_equal();
+        let known: Vec<Expr> =
+            [Part::Any, Part::Linear].into_iter().filter_map(|part| self.determinant(part)).collect();
+        let factors = known.iter().filter_map(|d| factored(*d, &d.symbols()).ok()).flat_map(|f| f.factors);
+        let candidates: Vec<Expr> = factors.map(|f| f.0).chain(known.iter().copied()).collect();
+        candidates.into_iter().filter(|f| moving(*f) == of).find_map(|factor| {
+            let number = (0..1 << (2 * of.len())).find(|&k| !is_zero(at(formula, k)))?;
+            let ratio = at(factor, number) / at(formula, number);
+            let scaled = formula * ratio;
+            (!is_zero(ratio) && equal(scaled, factor).is_equal()).then_some([scaled, factor])
+        })
     }
 
     /// The determinant of the linear rows without the joints that do not move the hand's point.

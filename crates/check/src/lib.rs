@@ -20,6 +20,7 @@ mod dynamics;
 mod edits;
 mod facts;
 mod formula;
+mod givens;
 mod goals;
 mod habits;
 mod heads;
@@ -49,6 +50,7 @@ mod recognised;
 mod remarks;
 mod respelling;
 mod scripts;
+mod spoken_loads;
 mod subject;
 mod supported;
 mod supposed;
@@ -214,6 +216,7 @@ pub fn check(
     unsupported::withdraw(text, &plan, &walked, &mut claims);
     remarks::withdraw(&plan.remarks, &walked.assertions, &mut claims);
     claims.extend(goals::judged(text, &plan, &walked));
+    claims.extend(givens::judged(text, &plan, &walked));
     let (listed, open_rows) = configurations::judged(text, plan::kind_of_tables(format), &plan, &walked);
     claims.extend(listed);
     causes.retain(|c| {
@@ -223,6 +226,7 @@ pub fn check(
     let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims);
     let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
     unjudged.extend(of_dynamics);
+    unjudged.extend(givens::unused(text, &plan, &walked, &claims));
     unjudged.sort_by_key(|u| (u.span.start, u.span.end));
     let claims = apart::split(text, claims, &mut causes);
     let mut checked = Checked {

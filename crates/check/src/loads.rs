@@ -2,6 +2,7 @@
 
 use super::habits::Habits;
 use super::letters::{AXES, Add, is_mentioned, plain};
+use super::spoken_loads as spoken;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::geometry::Vector;
@@ -12,6 +13,10 @@ use denavit_symbolic::vocabulary::Vocabulary;
 /// The load that a text gives as a vector, `F = (0, 0, -W)`, `\mathbf f = (10; -5)`: force, and moment if there are six.
 /// Nothing where it gives several: a torque would have to say of which it is.
 fn load_given(text: &str) -> Option<[Expr; 6]> {
+    vector_given(text).or_else(|| spoken::load(text))
+}
+
+fn vector_given(text: &str) -> Option<[Expr; 6]> {
     let open = Vocabulary::new().open(true);
     let mut found: Option<[Expr; 6]> = None;
     for (at, _) in text.match_indices('=').take(2_000) {

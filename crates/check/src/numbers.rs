@@ -385,7 +385,13 @@ fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Fin
     };
     let at = |unit, turned| answer.at.value(answer.wanted, subject, unit, turned);
     let Some(right) = at(units[0], false) else {
-        return Finding::Undecided { why: Unproved::NoLength };
+        let rates = subject.rates();
+        let is_open = |s: &Symbol| rates.contains(&(*s).into()) && answer.at.length(*s).is_none();
+        let why = match answer.wanted.symbols().iter().any(is_open) {
+            true => Unproved::NoRate,
+            false => Unproved::NoLength,
+        };
+        return Finding::Undecided { why };
     };
     let near = |x: f64, allowed: f64| (x - answer.printed).abs() <= allowed;
     if near(right, allowed) {

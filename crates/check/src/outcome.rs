@@ -61,6 +61,8 @@ pub enum Skipped {
     Unused(String),
     /// It is read, but says nothing that is known of the robot.
     SaysNothing,
+    /// It was taken for a configuration that is given, and nothing that is judged rests on it.
+    Given,
     /// It stands among words, and nothing shows where it begins and ends.
     AmongWords,
     /// A program gives it, but nothing says what it is.

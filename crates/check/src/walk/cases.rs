@@ -1,149 +1,28 @@
 //! Equations that claim nothing of the robot: cases, conditions, places, goals.
 
 use super::scalars::is_measured;
-use super::{Pair, Piece, Scalar, Spoken, Walk};
-use crate::facts::About;
+use super::{Scalar, Spoken, Walk};
 use crate::habits::is_named_sign;
-use crate::jacobians::Part;
-use crate::note::Unreadable;
-use denavit::description::JointKind;
 use denavit_reading::document::{Place, Statement};
+use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Expr, Node, Symbol, equal};
 use std::ops::Range;
 
 /// Words so many letters before a statement speak of it.
 const NEAR: usize = 400;
 
-/// True if the words before a place speak of where the arm is singular.
-pub(in super::super) fn speaks_of_singularity(text: &str, at: usize) -> bool {
-    const WORDS: [&str; 13] = [
-        "singul",
-        "vanish",
-        "determinant",
-        "déterminant",
-        "det j",
-        "det(",
-        "\\det",
-        "rank",
-        "rang ",
-        "annul",
-        "se anula",
-        "degenera",
-        "verschwind",
-    ];
-    let before = text.get(..at).unwrap_or_default();
-    let start = before.char_indices().rev().take(NEAR).last().map_or(0, |c| c.0);
-    let before = before[start..].to_lowercase();
-    WORDS.iter().any(|w| before.contains(w)) && !is_denied(&before)
-}
-
 impl Walk<'_> {
-    /// `sin θ2 = −e/d3`, of no pose: where something is so, as singular. True if it is no identity; then it is a claim only if
-    /// the arm is singular there.
-    pub(super) fn is_sine_there(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
-        let (sine, value) = (left.value(), right.value());
-        let (Node::Sin(angle) | Node::Cos(angle)) = sine.node() else { return false };
-        let Some(joint) = angle.as_symbol().filter(|s| self.subject.joints().contains(&(*s).into())) else {
-            return false;
-        };
-        let d = &self.subject.description;
-        let symbols = value.symbols();
-        // `s_1 = sin θ2` is a slip of an index.
-        let slides =
-            |s: &Symbol| d.variables().iter().any(|v| v.symbol == *s && v.kind == JointKind::Prismatic);
-        let is_known = |s: &Symbol| d.parameter(*s).is_some() || slides(s);
-        if symbols.is_empty()
-            || !symbols.iter().all(is_known)
-            || self.speaks_of_pose(span)
-            || equal(sine, value).is_equal()
-        {
-            return false;
-        }
-        let other = (Expr::int(1) - value.powi(2)).sqrt();
-        let there = match sine.node() {
-            Node::Sin(_) => value.atan2(other),
-            _ => other.atan2(value),
-        };
-        let is_told = speaks_of_singularity(self.text, statement.span.start);
-        let singular = self.subject.singular_at(joint, there).filter(|_| is_told);
-        match singular {
-            Some(value) => {
-                let (place, span, wanted, also) = (None, span.clone(), Expr::int(0), vec![]);
-                let pair = Pair { place, span, printed: None, value, wanted, also };
-                let mut assertion = self.assertion(statement, About::Singularity);
-                assertion.pieces = vec![Piece::Pair(pair)];
-                self.assertions.push(assertion);
-            }
-            None => self.skipped.push((statement.span.clone(), Unreadable::NoConfiguration)),
-        }
-        true
-    }
-
-    /// A joint's value in a sentence that tells a case: a singular configuration, if the sentence says so.
+    /// A joint's value in a sentence that tells a case.
     pub(super) fn case(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
-        let [Scalar::Formula(_, left), Scalar::Formula(span, right)] = read else { return false };
-        let (of, value) = (left.value(), right.value());
+        let [Scalar::Formula(_, left), Scalar::Formula(_, right)] = read else { return false };
         let joints = self.subject.joints();
-        if !of.as_symbol().is_some_and(|s| joints.contains(&s.into())) || !value.symbols().is_empty() {
-            return false;
+        let is_joint = left.value().as_symbol().is_some_and(|s| joints.contains(&s.into()));
+        let is_told = is_joint && right.value().symbols().is_empty();
+        if is_told {
+            self.taken.push(statement.span.clone());
         }
-        let said = statement.prose.clone().and_then(|p| self.text.get(p)).unwrap_or_default().to_lowercase();
-        // A rounded angle is where the determinant vanishes as nearly as it is printed.
-        let is_rounded = self.source(span).contains('.');
-        let is_told = is_singular(&said) || self.is_in_list_of_singular(statement);
-        let determinant = self.subject.determinant(Part::Any).filter(|_| is_told && !is_rounded);
-        match determinant {
-            Some(determinant) => {
-                let there = determinant.substitute(|s| (Some(s) == of.as_symbol()).then_some(value));
-                let piece = Piece::Pair(Pair {
-                    place: None,
-                    span: span.clone(),
-                    printed: None,
-                    value: there,
-                    wanted: Expr::int(0),
-                    also: vec![],
-                });
-                // The configurations of a sentence are one claim.
-                let last = self.assertions.last_mut().filter(|a| a.about == About::Singularity);
-                match last.filter(|a| statement.span.start.saturating_sub(a.span.end) < 120) {
-                    Some(assertion) => {
-                        assertion.span.end = statement.span.end;
-                        assertion.pieces.push(piece);
-                    }
-                    None => {
-                        let mut assertion = self.assertion(statement, About::Singularity);
-                        assertion.pieces = vec![piece];
-                        self.assertions.push(assertion);
-                    }
-                }
-            }
-            None => self.taken.push(statement.span.clone()),
-        }
-        true
-    }
-
-    /// True for an item of a list whose lead says that the arm is singular: `Two families of singular configurations follow.`
-    fn is_in_list_of_singular(&self, statement: &Statement) -> bool {
-        const MOST: usize = 12;
-        let before = self.text.get(..statement.span.start).unwrap_or_default();
-        let is_item = |line: &str| {
-            let mark = line.trim_start().trim_start_matches(|c: char| c.is_ascii_digit());
-            mark.len() < line.trim_start().len() && mark.starts_with(['.', ')'])
-                || line.trim_start().starts_with("- ")
-                || line.trim_start().starts_with("* ")
-                || line.trim_start().starts_with("\\item")
-        };
-        let mut lines = before.rsplit('\n').take(MOST);
-        if !lines.next().is_some_and(is_item) {
-            return false;
-        }
-        let is_beside =
-            |line: &&str| is_item(line) || line.trim().is_empty() || line.trim_start().starts_with("\\begin");
-        let lead = lines.find(|line| !is_beside(line)).map(str::to_lowercase);
-        lead.is_some_and(|lead| is_singular(&lead))
+        is_told
     }
 
     /// Keeps a statement that only tells a case from being listed.
@@ -491,39 +370,6 @@ const GOALS: [&str; 41] = [
     "punto deseado",
     "per il punto",
 ];
-
-/// True if a sentence says that the arm is singular somewhere.
-fn is_singular(said: &str) -> bool {
-    said.contains("singul") && !is_denied(said)
-}
-
-/// True if words say that something is not so, or not there.
-fn is_denied(said: &str) -> bool {
-    const DENIALS: [&str; 21] = [
-        "not singul",
-        "nicht singul",
-        "non singul",
-        "no singul",
-        "nonsingul",
-        "pas singul",
-        "unless",
-        "not at ",
-        "nicht bei",
-        "pas pour",
-        "no en ",
-        "non per ",
-        "not when",
-        "not if",
-        "not vanish",
-        "never",
-        "annule pas",
-        "no se anula",
-        "non si annulla",
-        "verschwindet nicht",
-        "nirgends",
-    ];
-    DENIALS.iter().any(|d| said.contains(d))
-}
 
 /// True for `σ = +1`, where the document names a sign.
 pub(super) fn is_choice_of_sign(read: &[Scalar]) -> bool {

@@ -12,7 +12,7 @@ impl Walk<'_> {
     /// The determinant that a name says: `\det J_v`, `|J|`.
     pub(super) fn determinant(&self, span: &Range<usize>) -> Option<Expr> {
         let source = self.source(span);
-        let bare = ["\\operatorname{det}", "\\mathrm{det}", "\\det", "\\left", "\\right", "det"]
+        let bare = ["\\operatorname{det}", "\\mathrm{det}", "\\det", "\\left", "\\right", "det", "DET"]
             .iter()
             .fold(source.to_string(), |s, w| s.replace(w, " "));
         if bare == source && !(source.starts_with('|') && source.ends_with('|') && source.len() > 2) {
@@ -28,6 +28,8 @@ impl Walk<'_> {
             .strip_suffix('J')
             .filter(|s| s.len() == 1 && s.starts_with(|c: char| c.is_ascii_digit()))
             .map_or(inner, |_| "J");
+        // `det = …`: that of the Jacobian of which the text speaks.
+        let inner = if inner.is_empty() { "J" } else { inner };
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
         if name.base == "J" && name.sub == "11" && self.lexis.defined(&name).is_none() {

@@ -48,6 +48,8 @@ pub(in super::super) struct Answered {
     pub targets: Vec<Target>,
     /// Lengths that the document states.
     pub at: Configuration,
+    /// They were taken as a configuration that is given: they are an answer only if they reach a pose that is known.
+    pub is_given: bool,
 }
 
 /// A pose that is to be reached, as it is known from a place on.
@@ -59,7 +61,7 @@ pub(in super::super) struct Goal {
 }
 
 /// Words that begin what joints are given as.
-const GIVEN: [&str; 15] = [
+pub(in super::super) const GIVEN: [&str; 15] = [
     "with ", "for ", "at ", "example", "bei ", "für ", "mit ", "beispiel", "pour ", "avec ", "para ", "con ",
     "per ", "com ", "exemp",
 ];
@@ -161,31 +163,41 @@ impl Walk<'_> {
             self.seek(false);
             return false;
         }
-        let values: Vec<f64> =
-            syntax.variants().iter().filter_map(|v| v.value().eval(|_| None).ok()).collect();
+        let answered = Answered { targets, ..self.as_answered(statement, of, span, syntax) };
+        let joints = self.subject.joints();
+        if let (Some(joint), &[value]) = (joints.iter().position(|q| *q == of), &answered.values[..]) {
+            let joints = joints.len();
+            self.at.find_joint(joint, joints, (value, answered.has_unit));
+        }
+        self.answered.push(Answered { at: self.at.clone(), ..answered });
+        self.only_numbers(read)
+    }
+
+    /// Numbers in print for a joint, of no pose as yet.
+    fn as_answered(&self, statement: &Statement, of: Expr, span: &Range<usize>, syntax: &Syntax) -> Answered {
         let source = self.source(span);
         let is_degree = source.contains('°') || source.contains("deg") || source.contains("circ");
-        let has_unit = is_degree || source.contains(|c: char| c.is_alphabetic() || c == 'π');
-        let half = self.half(span);
-        let name = self.claim_name(statement);
-        let joints = self.subject.joints();
-        if let (Some(joint), &[value]) = (joints.iter().position(|q| *q == of), &values[..]) {
-            let joints = joints.len();
-            self.at.find_joint(joint, joints, (value, has_unit));
-        }
-        self.answered.push(Answered {
+        Answered {
             span: statement.span.clone(),
-            name,
+            name: self.claim_name(statement),
             value: span.clone(),
             of,
-            values,
-            half,
-            has_unit,
+            values: syntax.variants().iter().filter_map(|v| v.value().eval(|_| None).ok()).collect(),
+            half: self.half(span),
+            has_unit: is_degree || source.contains(|c: char| c.is_alphabetic() || c == 'π'),
             subject: self.number,
-            targets,
+            targets: vec![],
             at: self.at.clone(),
-        });
-        self.only_numbers(read)
+            is_given: false,
+        }
+    }
+
+    /// Keeps the number of a joint that is taken as given.
+    pub(super) fn keep_given(&mut self, statement: &Statement, read: &[Scalar]) {
+        if let Some((of, span, syntax)) = self.numbers_of_joint(read).filter(|_| self.only_numbers(read)) {
+            let answered = self.as_answered(statement, of, span, syntax);
+            self.answered.push(Answered { is_given: true, ..answered });
+        }
     }
 
     /// An angle in print in radians: one without a unit that is more than a turn, or a multiple of 5, is in degrees.
@@ -241,6 +253,7 @@ impl Walk<'_> {
             subject: self.number,
             targets: self.goal.clone(),
             at: self.at.clone(),
+            is_given: false,
         };
         self.answered.push(answered);
         middle.is_empty()
@@ -304,12 +317,15 @@ impl Walk<'_> {
         if !is_other && !self.in_inverse {
             return vec![];
         }
-        let mut at = self.at.clone();
+        // What the sentence itself states is the solution.
+        let (told, before) = &self.before_told;
+        let own = told.contains(&statement.span.start);
+        let mut at = if own && is_other { before.clone() } else { self.at.clone() };
         if !is_other {
             at.recall_joints();
         }
         let pose = self.subject.pose().matrix();
-        let columns = if self.subject.joints().len() > 3 { 0..4 } else { 3..4 };
+        let columns = if self.subject.is_for_places() { 3..4 } else { 0..4 };
         let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
         let moves = |e: &Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
         let target = |wanted: Expr| {

@@ -13,18 +13,21 @@ mod goal;
 mod labels;
 mod matrices;
 mod points;
+mod rate_letters;
 mod rates;
 mod scalars;
+mod singular;
+mod speeds;
 mod told;
 mod units;
 mod worded;
 mod words;
 
-pub(super) use cases::speaks_of_singularity;
 pub(super) use elsewhere::of_other_points;
-pub(super) use goal::{Answered, Goal, Target};
+pub(super) use goal::{Answered, GIVEN, Goal, Target};
 pub(super) use points::points;
 pub(super) use scalars::is_measured;
+pub(super) use singular::speaks_of_singularity;
 
 use super::facts::{About, Meaning, Remark};
 use super::habits::{Habits, Places};
@@ -152,6 +155,8 @@ pub(super) struct Walk<'a> {
     pub sines: Vec<(Expr, Vec<Expr>)>,
     /// The configuration that was stated last.
     pub at: Configuration,
+    /// The prose that stated it, and the one before it.
+    before_told: (Range<usize>, Configuration),
     /// The configurations that have names.
     labels: labels::Labels,
     /// The set of angles that a directive names.
@@ -162,6 +167,8 @@ pub(super) struct Walk<'a> {
     pub taken: Vec<Range<usize>>,
     /// Numbers that joints are said to have where a pose is given.
     pub answered: Vec<Answered>,
+    /// Velocities in letters of which it is not known yet which joint's rates they are.
+    waiting: Vec<rate_letters::Waiting>,
     /// Components of the velocity for which joint rates are asked, by their rows.
     sought: BTreeMap<usize, Expr>,
     /// The pose that is to be reached, as far as the text has given it in numbers, and where it did last.
@@ -247,6 +254,7 @@ impl<'a> Walk<'a> {
             sines: vec![],
             taken: vec![],
             answered: vec![],
+            waiting: vec![],
             sought: BTreeMap::new(),
             goal: vec![],
             goal_at: 0,
@@ -261,6 +269,7 @@ impl<'a> Walk<'a> {
             last_heading: 0..0,
             last_end: 0,
             at: Configuration::default(),
+            before_told: (0..0, Configuration::default()),
             labels: labels::Labels::default(),
             angles: None,
             skipped: vec![],

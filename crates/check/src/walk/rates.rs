@@ -150,15 +150,9 @@ impl Walk<'_> {
 
     /// A velocity where words say that only the joints move whose rates are printed.
     pub(super) fn of_moving(&self, statement: &Statement, read: &[Scalar], wanted: Expr) -> Expr {
-        const ONLY: [&str; 8] = ["only ", "alone", " nur ", "allein", "seule", "solo ", "sola ", "solamente"];
         let rates = self.subject.rates();
         let is_rate = |e: &Expr| rates.contains(e);
-        let words = || {
-            let around = [&statement.prose, &statement.heading].into_iter().flatten();
-            let around = around.filter_map(|s| self.text.get(s.clone()));
-            around.chain([self.sentence_before(statement)]).map(str::to_lowercase)
-        };
-        let says_only = words().any(|w| ONLY.iter().any(|o| w.contains(o)));
+        let says_only = self.speaks_of_some_alone(statement);
         if !wanted.symbols().iter().any(|s| is_rate(&(*s).into())) {
             return wanted;
         }
@@ -173,8 +167,10 @@ impl Walk<'_> {
         // A formula without rates, where all are 1.
         let moves = |e: Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
         let is_formula = read.iter().skip(1).any(|s| matches!(s, Scalar::Formula(_, s) if moves(s.value())));
-        let are_units =
-            || words().any(|w| w.contains("1 rad/s") || w.contains("unit rate") || w.contains("unit speed"));
+        let are_units = || {
+            let mut words = self.words_around(statement);
+            words.any(|w| w.contains("1 rad/s") || w.contains("unit rate") || w.contains("unit speed"))
+        };
         if printed.is_empty() && is_formula && are_units() {
             return wanted.substitute(|s| is_rate(&s.into()).then(|| Expr::int(1)));
         }
@@ -185,6 +181,19 @@ impl Walk<'_> {
                 (is_rate(&e) && !printed.contains(&e)).then(|| Expr::int(0))
             }),
         }
+    }
+
+    /// The words of a statement's paragraph, its heading and its sentence.
+    fn words_around(&self, statement: &Statement) -> impl Iterator<Item = String> {
+        let around = [&statement.prose, &statement.heading].into_iter().flatten();
+        let around = around.filter_map(|s| self.text.get(s.clone()));
+        around.chain([self.sentence_before(statement)]).map(str::to_lowercase).collect::<Vec<_>>().into_iter()
+    }
+
+    /// True where words say that only some joints move.
+    pub(super) fn speaks_of_some_alone(&self, statement: &Statement) -> bool {
+        const ONLY: [&str; 8] = ["only ", "alone", " nur ", "allein", "seule", "solo ", "sola ", "solamente"];
+        self.words_around(statement).any(|w| ONLY.iter().any(|o| w.contains(o)))
     }
 
     /// What stands before a statement in its sentence, or in the part of it behind a semicolon.

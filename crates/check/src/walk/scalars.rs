@@ -94,6 +94,9 @@ impl Walk<'_> {
     pub(super) fn scalars(&mut self, statement: &Statement, claim: Option<&str>) -> bool {
         let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
         let mut read: Vec<Scalar> = spans.iter().map(|s| self.scalar(s)).collect();
+        if self.finds_rates(statement, &read) {
+            read = spans.iter().map(|s| self.scalar(s)).collect();
+        }
         let is_matrix = |s: &Scalar| match s {
             Scalar::Lone(name) => self.lexis.matrix(&self.subject, name).is_some(),
             Scalar::Broken(span, _) => self.is_product(span),
@@ -119,6 +122,9 @@ impl Walk<'_> {
         if self.tells_goal(statement) {
             self.look_for_joints();
         }
+        if self.singular(statement, &read) {
+            return true;
+        }
         let is_case = self.is_case(statement) || self.is_satisfied(statement);
         if is_case && (self.case(statement, &read) || self.is_open(&read)) {
             self.take_as_case(statement);
@@ -132,6 +138,7 @@ impl Walk<'_> {
             return true;
         }
         if !is_case && self.configuration(&spans, &read) {
+            self.keep_given(statement, &read);
             self.taken.push(statement.span.clone());
             return true;
         }
@@ -173,7 +180,7 @@ impl Walk<'_> {
             return true;
         }
         self.record_sine(&spans, &read);
-        let told = claim.and_then(|words| self.told_entry(words));
+        let told = claim.and_then(|words| self.told_entry(words)).or_else(|| self.of_motion(&read));
         // A name that the document defines here.
         let is_definition = told.is_none()
             && match &read[..] {

@@ -18,7 +18,7 @@ const LONGEST: usize = 1_000;
 const LIST: usize = 300;
 /// What a list of values is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum List {
+pub(super) enum List {
     Joints,
     Rates,
     Lengths,
@@ -28,7 +28,11 @@ impl Walk<'_> {
     /// Reads the values that a line of prose gives: `with a1 = 1 and θ1 = 30°`, `q = (30°, 45°)`, `lengths 0.5, 0.4`.
     pub(super) fn told_in(&mut self, prose: &Range<usize>) {
         let before = self.at.present();
+        let whole = self.at.clone();
         self.told_of(prose);
+        if self.at.present() != before {
+            self.before_told = (prose.clone(), whole);
+        }
         self.learn_label(prose, &before);
     }
 
@@ -60,6 +64,7 @@ impl Walk<'_> {
         }
         self.told_row(&joined);
         self.told_words(&joined);
+        self.told_speeds(&joined);
         self.told_names(&joined);
         self.told_lists(&joined);
         self.told_tuples(&joined, prose.start);
@@ -348,7 +353,7 @@ impl Walk<'_> {
     }
 
     /// Gives values in the order of the joints, or of the lengths; false if there are not as many.
-    fn assign_list(&mut self, list: List, values: &[&str]) -> bool {
+    pub(super) fn assign_list(&mut self, list: List, values: &[&str]) -> bool {
         let d = &self.subject.description;
         let symbols: Vec<Symbol> = match list {
             List::Joints => d.variables().iter().map(|v| v.symbol).collect(),

@@ -218,6 +218,7 @@ fn conditions_and_doubts() {
     );
     for why in [
         Unproved::NoLength,
+        Unproved::NoRate,
         Unproved::NotFound,
         Unproved::NotOfSet,
         Unproved::NoPose,
@@ -319,6 +320,7 @@ fn what_is_not_read() {
     for why in [
         Skipped::Unused("K".into()),
         Skipped::SaysNothing,
+        Skipped::Given,
         Skipped::AmongWords,
         Skipped::OfProgram("fk".into()),
         Skipped::TooMany,

@@ -187,6 +187,9 @@ impl Check for English {
             Skipped::Unreadable(why) => self.unreadable(why),
             Skipped::Unused(name) => format!("defines `{name}`, which nothing that is proved uses"),
             Skipped::SaysNothing => "says nothing that is known of the robot".into(),
+            Skipped::Given => {
+                "taken for a configuration that is given: nothing that is judged rests on it".into()
+            }
             Skipped::AmongWords => {
                 "stands among words: nothing shows where the formula begins and ends".into()
             }
@@ -235,6 +238,7 @@ impl Check for English {
 
     fn unproved(&self, why: Unproved) -> String {
         match why {
+            Unproved::NoRate => "the joints' rates have no values here: state them before, `dq1 = 0.5 rad/s`",
             Unproved::NoLength => "a length has no value: state it before, `a1 = 0.5 m`",
             Unproved::NotFound => "neither proved equal nor different anywhere that was tried",
             Unproved::OwnTable => {

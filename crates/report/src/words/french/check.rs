@@ -202,6 +202,9 @@ impl Check for French {
             Skipped::Unreadable(why) => self.unreadable(why),
             Skipped::Unused(name) => say!("définit `{name}`, dont rien de démontré ne se sert"),
             Skipped::SaysNothing => printed("ne dit rien de connu sur le robot"),
+            Skipped::Given => {
+                printed("pris pour une configuration donnée : rien de ce qui est vérifié n'en dépend")
+            }
             Skipped::AmongWords => printed("parmi des mots : rien ne montre où la formule commence et finit"),
             Skipped::OfProgram(name) => say!("rien ne dit ce qu'est `{name}`"),
             Skipped::TooMany => printed("le document contient plus de formules qu'on n'en vérifie"),
@@ -252,6 +255,9 @@ impl Check for French {
 
     fn unproved(&self, why: Unproved) -> String {
         printed(match why {
+            Unproved::NoRate => {
+                "les vitesses articulaires n'ont pas de valeur ici : les donner auparavant, `dq1 = 0.5 rad/s`"
+            }
             Unproved::NoLength => "une longueur n'a pas de valeur : la donner auparavant, `a1 = 0.5 m`",
             Unproved::NotFound => "ni égalité démontrée, ni différence trouvée en aucun des essais",
             Unproved::OwnTable => {

@@ -1,0 +1,116 @@
+//! Numbers of joints that were taken as given: an answer if with them a pose is reached that is known, and otherwise a
+//! configuration, on which something should rest.
+
+use super::goals::{MAX_ANSWERS, Search, claim, groups};
+use super::numbers::Configuration;
+use super::outcome::{Claim, Finding, Skipped, Unjudged};
+use super::plan::{Plan, Walked};
+use super::subject::Subject;
+use super::walk::{Answered, GIVEN, Piece, Target};
+use denavit_symbolic::Expr;
+use std::ops::Range;
+
+/// So many poses before are tried.
+const MOST_POSES: usize = 6;
+/// Words of which the line of a configuration that is only given has one.
+const LET: [&str; 14] = [
+    "given", "let ", "take ", "suppose", "assume", "gegeben", "donné", "dado", "dada", "dato", "data",
+    "soit", "sei ", "posons",
+];
+
+/// A claim for each number of a joint that was taken as given, and with which a pose is reached that the document knows from
+/// somewhere else.
+pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
+    let given: Vec<Answered> = given(walked).take(MAX_ANSWERS).cloned().collect();
+    let mut found = vec![];
+    for group in groups(text, plan, &given) {
+        let subject = &plan.subjects[group[0].subject];
+        let start = group[0].span.start;
+        let known = poses(walked, subject, group[0].subject, start);
+        let reached = known.iter().find(|(at, targets)| {
+            let aimed: Vec<Answered> =
+                group.iter().map(|a| Answered { targets: targets.clone(), ..a.clone() }).collect();
+            let is_same =
+                |at: &Configuration| aimed.iter().all(|a| a.values.iter().all(|&x| at.has(a.of, x, subject)));
+            // The configuration itself, once more.
+            let is_restated = at.as_ref().is_some_and(is_same);
+            !is_restated
+                && Search::new(subject, &aimed, false)
+                    .is_some_and(|s| s.verdicts().iter().all(|v| *v == Some(true)))
+        });
+        if reached.is_some() {
+            found.extend(group.iter().map(|a| claim(a, Finding::Equal { unless_zero: vec![] })));
+        }
+    }
+    found
+}
+
+/// The numbers of joints that were taken as given, where no claim says anything of them and nothing is judged there.
+pub(super) fn unused(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim]) -> Vec<Unjudged> {
+    let is_judged =
+        |a: &Answered| claims.iter().any(|c| c.span.start < a.span.end && a.span.start < c.span.end);
+    let is_idle = |a: &&Answered| !a.is_given || !is_let(text, a) && !rests(plan, walked, a);
+    let idle = walked.answered.iter().filter(|a| !is_judged(a)).filter(is_idle);
+    let why = |a: &Answered| if a.is_given { Skipped::Given } else { Skipped::SaysNothing };
+    idle.map(|a| Unjudged { span: a.span.clone(), why: why(a) }).collect()
+}
+
+fn given(walked: &Walked) -> impl Iterator<Item = &Answered> {
+    walked.answered.iter().filter(|a| a.is_given && !a.values.is_empty())
+}
+
+/// The poses that a document has given up to a place, the last first: those to be reached, and those of configurations at which
+/// it prints numbers.
+fn poses(
+    walked: &Walked,
+    subject: &Subject,
+    number: usize,
+    start: usize,
+) -> Vec<(Option<Configuration>, Vec<Target>)> {
+    let joints = subject.joints().len();
+    let mut at: Vec<&Configuration> = vec![];
+    let before = walked.assertions.iter().rev().filter(|a| a.subject == number && a.span.end <= start);
+    for piece in before.flat_map(|a| a.pieces.iter().rev()) {
+        if at.len() == MOST_POSES {
+            break;
+        }
+        let Piece::Number { answer, .. } = piece else { continue };
+        let own = answer.at.whole(joints);
+        if own.is_some() && !at.iter().any(|c| c.whole(joints) == own) {
+            at.push(&answer.at);
+        }
+    }
+    let pose = subject.pose().matrix();
+    let moves = |e: &Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+    let targets = |at: &Configuration, columns: Range<usize>| -> Option<Vec<Target>> {
+        let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
+        let target = |wanted| Some(Target::new(subject, wanted, at.number(wanted, subject)?, 0.0));
+        entries.filter(moves).map(target).collect()
+    };
+    let columns = if subject.is_for_places() { 3..4 } else { 0..4 };
+    let of_configurations =
+        at.into_iter().filter_map(|c| Some((Some(c.clone()), targets(c, columns.clone())?)));
+    let goal = walked.goals.iter().rev().find(|g| g.subject == number && g.end <= start);
+    goal.into_iter().map(|g| (None, g.targets.clone())).chain(of_configurations).collect()
+}
+
+/// True where the words of its line say that a configuration is only given.
+fn is_let(text: &str, answered: &Answered) -> bool {
+    let before = text.get(..answered.span.start).unwrap_or_default();
+    let line = before.rsplit('\n').next().unwrap_or_default().to_lowercase();
+    let begins = line.trim_start_matches(|c: char| !c.is_alphabetic());
+    GIVEN.iter().any(|w| begins.starts_with(w)) || LET.iter().any(|w| line.contains(w))
+}
+
+/// True if a number that is judged further down is one at the configuration.
+fn rests(plan: &Plan, walked: &Walked, given: &Answered) -> bool {
+    let subject = &plan.subjects[given.subject];
+    let moves = |e: Expr| given.of.symbols().iter().any(|s| e.symbols().contains(s));
+    let is_there = |at: &Configuration| given.values.iter().any(|&x| at.has(given.of, x, subject));
+    walked
+        .assertions
+        .iter()
+        .filter(|a| a.subject == given.subject && a.span.start >= given.span.end)
+        .flat_map(|a| &a.pieces)
+        .any(|p| matches!(p, Piece::Number { answer, .. } if moves(answer.wanted) && is_there(&answer.at)))
+}
