@@ -1,8 +1,10 @@
 //! Arrays in and out: any leading shape, double or single precision, computed in blocks while Python's other threads run.
 
 use crate::ready::Ready;
+use crate::strided;
 use crate::trouble::{Kind, Trouble};
 use denavit_program::Real;
+use numpy::ndarray::ArrayViewD;
 use numpy::{
     Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
     PyUntypedArrayMethods,
@@ -11,17 +13,18 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyInt, PyList};
+use std::borrow::Cow;
 use std::num::NonZero;
 
-/// Numbers that lie in memory row by row.
-pub enum Values<'py, T: Element> {
-    /// An array.
+/// Numbers of an array.
+pub enum Values<'py, T: Element + Copy> {
+    /// Where they lie.
     Lent(PyReadonlyArrayDyn<'py, T>),
-    /// Those of a list or of vectors side by side, with their shape.
+    /// Those of a list or of another precision, row by row, with their shape.
     Own(Vec<usize>, Vec<T>),
 }
 
-impl<T: Element> Values<'_, T> {
+impl<T: Element + Copy> Values<'_, T> {
     /// The shape.
     pub fn shape(&self) -> &[usize] {
         match self {
@@ -30,15 +33,29 @@ impl<T: Element> Values<'_, T> {
         }
     }
 
-    /// All of them.
-    ///
-    /// # Errors
-    /// If the array is not in order.
-    pub fn slice(&self) -> PyResult<&[T]> {
+    /// All of them, if they lie in memory row by row.
+    pub fn slice(&self) -> Option<&[T]> {
         match self {
-            Values::Lent(array) => array.as_slice().map_err(|why| shape_error(why.to_string())),
-            Values::Own(_, all) => Ok(all),
+            Values::Lent(array) if !array.is_c_contiguous() => None,
+            Values::Lent(array) => array.as_slice().ok(),
+            Values::Own(_, all) => Some(all),
         }
+    }
+
+    /// All of them, wherever they lie.
+    fn view(&self) -> ArrayViewD<'_, T> {
+        match self {
+            Values::Lent(array) => array.as_array(),
+            Values::Own(shape, all) => {
+                ArrayViewD::from_shape(&shape[..], all).expect("as many as the shape says")
+            }
+        }
+    }
+
+    /// All of them row by row.
+    pub fn ordered(&self) -> Cow<'_, [T]> {
+        let all = self.slice().map(Cow::Borrowed);
+        all.unwrap_or_else(|| Cow::Owned(self.view().iter().copied().collect()))
     }
 }
 
@@ -79,19 +96,27 @@ fn listed(object: &Bound<'_, PyAny>) -> Option<Vec<f64>> {
     list.iter().map(number).collect()
 }
 
-/// An object as an array; one that is in order in memory already is taken as it is.
+/// Whether the numbers of an array can be read where they lie.
+fn is_readable<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
+    // One by one where numbers are to lie; an array without any has distances that mean nothing.
+    let size = size_of::<T>() as isize;
+    let is_even = || !array.is_empty() && array.strides().iter().all(|step| step % size == 0);
+    array.data().is_aligned() && (array.is_c_contiguous() || is_even())
+}
+
+/// An object as an array; one of doubles or singles is taken as it lies in memory.
 ///
 /// # Errors
 /// If it is no array of real numbers.
 pub fn array<'py>(object: &Bound<'py, PyAny>, what: &str) -> PyResult<Rows<'py>> {
     let borrowed = |why: numpy::BorrowError| shape_error(format!("{what}: {why}"));
     if let Ok(a) = object.cast::<PyArrayDyn<f64>>()
-        && a.is_c_contiguous()
+        && is_readable(a)
     {
         return Ok(Rows::Double(Values::Lent(a.try_readonly().map_err(borrowed)?)));
     }
     if let Ok(a) = object.cast::<PyArrayDyn<f32>>()
-        && a.is_c_contiguous()
+        && is_readable(a)
     {
         return Ok(Rows::Single(Values::Lent(a.try_readonly().map_err(borrowed)?)));
     }
@@ -109,7 +134,7 @@ pub fn array<'py>(object: &Bound<'py, PyAny>, what: &str) -> PyResult<Rows<'py>>
         return Err(PyTypeError::new_err(format!("{what} holds {dtype}: real numbers are needed")));
     }
     let dtype = if (kind, size) == (b'f', 4) { "float32" } else { "float64" };
-    let ordered = numpy.call_method1(intern!(py, "asarray"), (found, dtype, "C"))?;
+    let ordered = numpy.call_method1(intern!(py, "require"), (found, dtype, "CA"))?;
     Ok(match dtype {
         "float32" => {
             Rows::Single(Values::Lent(ordered.cast::<PyArrayDyn<f32>>()?.try_readonly().map_err(borrowed)?))
@@ -133,53 +158,47 @@ pub fn leading<'a>(shape: &'a [usize], tail: &[usize], what: &str) -> PyResult<&
 /// A vector that a function reads: what it is called, and its values `(..., n)`.
 pub type Vector<'a, 'py> = (&'a str, &'a Bound<'py, PyAny>);
 
-/// Vectors of `n` numbers side by side, broadcast against each other: `(..., k·n)`.
+/// Vectors of one precision with the leading shape that they have together.
+struct Vectors<'py, T: Element + Copy> {
+    leading: Vec<usize>,
+    each: Vec<Values<'py, T>>,
+}
+
+/// Vectors in one of both precisions.
+enum Together<'py> {
+    Double(Vectors<'py, f64>),
+    Single(Vectors<'py, f32>),
+}
+
+/// Vectors of `n` numbers, broadcast against each other.
 ///
 /// # Errors
 /// If one has another shape, or the shapes do not go together.
-fn side_by_side<'py>(vectors: &[Vector<'_, 'py>], n: usize) -> PyResult<Rows<'py>> {
+fn side_by_side<'py>(vectors: &[Vector<'_, 'py>], n: usize) -> PyResult<Together<'py>> {
     let found: Vec<Rows<'py>> = vectors.iter().map(|(what, v)| array(v, what)).collect::<PyResult<_>>()?;
+    let mut shapes = Vec::with_capacity(found.len());
     for ((what, _), rows) in vectors.iter().zip(&found) {
-        leading(rows.shape(), &[n], what)?;
+        shapes.push(leading(rows.shape(), &[n], what)?);
     }
-    let is_single = found.iter().all(|rows| matches!(rows, Rows::Single(_)));
-    if found.len() == 1 {
-        return Ok(found.into_iter().next().expect("it is one"));
-    }
-    let shapes: Vec<&[usize]> = found.iter().map(|rows| &rows.shape()[..rows.shape().len() - 1]).collect();
-    let shape = together(&shapes).ok_or_else(|| {
+    let leading = together(&shapes).ok_or_else(|| {
         let all = vectors.iter().zip(&found).map(|((what, _), r)| format!("{what} {}", written(r.shape())));
         shape_error(format!("the shapes do not go together: {}", all.collect::<Vec<_>>().join(", ")))
     })?;
-    if is_single {
-        let all: Vec<&[f32]> = found
-            .iter()
-            .map(|rows| match rows {
-                Rows::Single(values) => values.slice(),
-                Rows::Double(_) => Ok(&[][..]),
-            })
-            .collect::<PyResult<_>>()?;
-        let (shape, values) = placed(&shape, &shapes, &all, n);
-        return Ok(Rows::Single(Values::Own(shape, values)));
+    if found.iter().any(|rows| matches!(rows, Rows::Double(_))) {
+        // What is in single precision stands beside what is in double.
+        let wide = |rows| match rows {
+            Rows::Double(values) => values,
+            Rows::Single(values) => {
+                Values::Own(values.shape().to_vec(), values.ordered().iter().map(|&x| f64::from(x)).collect())
+            }
+        };
+        return Ok(Together::Double(Vectors { leading, each: found.into_iter().map(wide).collect() }));
     }
-    // What is in single precision stands beside what is in double.
-    let wide: Vec<Vec<f64>> = found
-        .iter()
-        .map(|rows| match rows {
-            Rows::Single(values) => Ok(values.slice()?.iter().map(|&x| f64::from(x)).collect()),
-            Rows::Double(_) => Ok(vec![]),
-        })
-        .collect::<PyResult<_>>()?;
-    let all: Vec<&[f64]> = found
-        .iter()
-        .zip(&wide)
-        .map(|(rows, wide)| match rows {
-            Rows::Double(values) => values.slice(),
-            Rows::Single(_) => Ok(&wide[..]),
-        })
-        .collect::<PyResult<_>>()?;
-    let (shape, values) = placed(&shape, &shapes, &all, n);
-    Ok(Rows::Double(Values::Own(shape, values)))
+    let single = |rows| match rows {
+        Rows::Single(values) => Some(values),
+        Rows::Double(_) => None,
+    };
+    Ok(Together::Single(Vectors { leading, each: found.into_iter().filter_map(single).collect() }))
 }
 
 /// The shape that shapes have in common by the rules of broadcasting.
@@ -193,39 +212,6 @@ fn together(shapes: &[&[usize]]) -> Option<Vec<usize>> {
             wider.all(|size| size == first).then_some(first)
         })
         .collect()
-}
-
-/// Rows of `n` numbers of each array, side by side.
-fn placed<T: Copy>(shape: &[usize], shapes: &[&[usize]], all: &[&[T]], n: usize) -> (Vec<usize>, Vec<T>) {
-    let rows: usize = shape.iter().product();
-    let mut values = Vec::with_capacity(rows * n * all.len());
-    // How many rows one has to go on for a step along each axis.
-    let steps = |own: &&[usize]| -> Vec<usize> {
-        let missing = shape.len() - own.len();
-        let mut step = 1;
-        let mut steps = vec![0; shape.len()];
-        for (axis, &size) in own.iter().enumerate().rev() {
-            steps[missing + axis] = if size == 1 { 0 } else { step };
-            step *= size;
-        }
-        steps
-    };
-    let steps: Vec<Vec<usize>> = shapes.iter().map(steps).collect();
-    let mut at = vec![0; shape.len()];
-    for _ in 0..rows {
-        for (array, steps) in all.iter().zip(&steps) {
-            let row: usize = at.iter().zip(steps).map(|(k, step)| k * step).sum();
-            values.extend_from_slice(&array[row * n..][..n]);
-        }
-        for (k, &size) in at.iter_mut().zip(shape).rev() {
-            *k += 1;
-            if *k < size {
-                break;
-            }
-            *k = 0;
-        }
-    }
-    ([shape, &[n * all.len()]].concat(), values)
 }
 
 /// The results of a program for all rows of arrays `(..., n)`: an array `(..., *tail)`.
@@ -248,12 +234,11 @@ impl<'py> Call<'_, 'py> {
     /// # Errors
     /// If an array has the wrong shape or type.
     pub fn of(&self, py: Python<'py>, vectors: &[Vector<'_, 'py>]) -> PyResult<Bound<'py, PyAny>> {
-        let variables = self.n * vectors.len();
         match side_by_side(vectors, self.n)? {
-            Rows::Double(rows) => self.run(py, variables, &rows, |inputs, outputs| {
+            Together::Double(vectors) => self.run(py, &vectors, |inputs, outputs| {
                 self.function.one(inputs, outputs);
             }),
-            Rows::Single(rows) => self.run(py, variables, &rows, |inputs, outputs| {
+            Together::Single(vectors) => self.run(py, &vectors, |inputs, outputs| {
                 self.function.many().batch::<f32>().run(inputs, outputs);
             }),
         }
@@ -262,11 +247,10 @@ impl<'py> Call<'_, 'py> {
     fn run<T: Real + Element>(
         &self,
         py: Python<'py>,
-        variables: usize,
-        rows: &Values<'py, T>,
+        vectors: &Vectors<'py, T>,
         one: impl Fn(&[T], &mut [T]),
     ) -> PyResult<Bound<'py, PyAny>> {
-        let leading = &rows.shape()[..rows.shape().len() - 1];
+        let leading = &vectors.leading[..];
         let shape = [leading, self.tail].concat();
         let results = match self.out {
             None => PyArrayDyn::<T>::zeros(py, &shape[..], false),
@@ -283,16 +267,33 @@ impl<'py> Call<'_, 'py> {
                 fit.ok_or_else(needed)?.clone()
             }
         };
-        let inputs = rows.slice()?;
         {
             let borrowed = results.try_readwrite();
             let mut borrowed = borrowed.map_err(|why| shape_error(format!("out: {why}")))?;
             let outputs = borrowed.as_slice_mut().map_err(|why| shape_error(format!("out: {why}")))?;
-            if inputs.len() == variables && variables > 0 {
-                one(inputs, outputs);
-            } else if !outputs.is_empty() {
-                let threads = self.threads.and_then(NonZero::new);
+            let threads = self.threads.and_then(NonZero::new);
+            let whole = match &vectors.each[..] {
+                [only] => only.slice(),
+                _ => None,
+            };
+            if outputs.is_empty() {
+            } else if leading.iter().product::<usize>() == 1 && self.n > 0 {
+                match whole {
+                    Some(inputs) => one(inputs, outputs),
+                    None => {
+                        let all: Vec<T> =
+                            vectors.each.iter().flat_map(|v| v.ordered().into_owned()).collect();
+                        one(&all, outputs);
+                    }
+                }
+            } else if let Some(inputs) = whole {
                 py.detach(|| self.function.many().batch::<T>().run_parallel(threads, inputs, outputs));
+            } else {
+                let shape = [leading, &[self.n]].concat();
+                let views: Vec<_> = vectors.each.iter().map(Values::view).collect();
+                let views = views.iter().filter_map(|view| view.broadcast(&shape[..])).collect();
+                let count = self.tail.iter().product();
+                py.detach(|| strided::run(self.function.many(), threads, views, count, outputs));
             }
         }
         Ok(results.into_any())

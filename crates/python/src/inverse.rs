@@ -3,10 +3,11 @@
 use crate::arrays::{Rows, array, leading};
 use crate::loading::derive;
 use crate::named::options;
+use crate::packed::Packed;
 use crate::trouble::{Kind, Trouble};
 use denavit::description::Description;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Branch, Family, Goal, InverseKinematics, InverseModel, Solution, Unprepared};
+use denavit::inverse::{Family, Goal, InverseKinematics, InverseModel, Unprepared};
 use denavit_program::solver::SolverFunction;
 use denavit_report::words::Tongue;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -127,9 +128,9 @@ pub fn solver_of(d: &Description, goal: &str) -> Result<(SolverFunction, Goal), 
 /// If it has another shape, or one of them is none.
 pub fn poses(object: &Bound<'_, PyAny>) -> PyResult<(Vec<Transform<f64>>, Vec<usize>)> {
     match array(object, "pose")? {
-        Rows::Double(a) => rigid(a.slice()?, a.shape()),
+        Rows::Double(a) => rigid(&a.ordered(), a.shape()),
         Rows::Single(a) => {
-            let wide: Vec<f64> = a.slice()?.iter().map(|&x| f64::from(x)).collect();
+            let wide: Vec<f64> = a.ordered().iter().map(|&x| f64::from(x)).collect();
             rigid(&wide, a.shape())
         }
     }
@@ -190,7 +191,9 @@ pub fn solve<'py>(
         (answer, nearest.filter(|n| n.within_limits || !wish.limits), left_out)
     });
     let dict = PyDict::new(py);
-    listed(py, &dict, joints, answer.solutions.len(), answer.solutions.iter())?;
+    let mut packed = Packed::default();
+    packed.add(&answer, left_out);
+    packed.list(py, &dict, joints)?;
     let families = answer.families.iter().map(|f| family(py, f, joints)).collect::<PyResult<Vec<_>>>()?;
     dict.set_item("families", PyList::new(py, families)?)?;
     dict.set_item("complete", answer.is_complete())?;
@@ -210,42 +213,6 @@ pub fn solve<'py>(
     });
     dict.set_item("obstacle", obstacle)?;
     Ok(dict)
-}
-
-/// Solutions side by side, of which there are so many.
-fn listed<'a, 'py>(
-    py: Python<'py>,
-    dict: &Bound<'py, PyDict>,
-    joints: usize,
-    count: usize,
-    solutions: impl Iterator<Item = &'a Solution>,
-) -> PyResult<()> {
-    let mut q: Vec<f64> = Vec::with_capacity(count * joints);
-    let mut residuals: Vec<f64> = Vec::with_capacity(count);
-    let mut multiplicities: Vec<i64> = Vec::with_capacity(count);
-    let mut within: Vec<bool> = Vec::with_capacity(count);
-    let mut branches: Vec<Bound<'py, PyString>> = Vec::with_capacity(count);
-    // A branch of many solutions is one text; there are few, and in many answers they come in the same order.
-    let mut known: Vec<(&Branch, Bound<'py, PyString>)> = vec![];
-    let mut next = 0;
-    for s in solutions {
-        q.extend_from_slice(&s.q);
-        residuals.push(s.residual);
-        multiplicities.push(i64::from(s.multiplicity));
-        within.push(s.within_limits);
-        let place = (next..known.len()).chain(0..next).find(|&k| *known[k].0 == s.branch);
-        let place = place.unwrap_or_else(|| {
-            known.push((&s.branch, PyString::new(py, &s.branch.to_string())));
-            known.len() - 1
-        });
-        branches.push(known[place].1.clone());
-        next = if place + 1 < known.len() { place + 1 } else { 0 };
-    }
-    dict.set_item("solutions", matrix(py, q, count, joints)?)?;
-    dict.set_item("residuals", residuals.into_pyarray(py))?;
-    dict.set_item("branches", PyList::new(py, branches)?)?;
-    dict.set_item("multiplicities", multiplicities.into_pyarray(py))?;
-    dict.set_item("within_limits", PyArray1::from_vec(py, within))
 }
 
 /// A matrix of entries that stand row by row.
@@ -294,22 +261,15 @@ pub fn solve_all<'py>(
     let (poses, shape) = poses(many)?;
     let (prepared, values) = solvers.get(text, py, wish, goal)?;
     let solver = &prepared.solver;
-    let (answers, left_out): (Vec<Answer>, Vec<Option<usize>>) = py.detach(|| {
+    let mut packed = py.detach(|| {
         let cores = || thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         let threads = threads.and_then(NonZero::new).unwrap_or_else(cores);
-        let mut answers = solver.solve_all(&poses, &values, threads);
-        let leave_out = |answer: &mut Answer| wish.limits.then(|| answer.leave_out(&solver.space));
-        let left_out = answers.iter_mut().map(leave_out).collect();
-        (answers, left_out)
+        Packed::solve(solver, &poses, &values, wish.limits, threads)
     });
     let dict = PyDict::new(py);
-    let count = answers.iter().map(|a| a.solutions.len()).sum();
-    listed(py, &dict, solver.robot.joints, count, answers.iter().flat_map(|a| &a.solutions))?;
-    let counts: Vec<i64> =
-        answers.iter().map(|a| i64::try_from(a.solutions.len()).unwrap_or(i64::MAX)).collect();
-    dict.set_item("counts", counts.into_pyarray(py))?;
-    let complete: Vec<bool> = answers.iter().map(Answer::is_complete).collect();
-    dict.set_item("complete", PyArray1::from_vec(py, complete))?;
+    packed.list(py, &dict, solver.robot.joints)?;
+    dict.set_item("counts", packed.counts.into_pyarray(py))?;
+    dict.set_item("complete", PyArray1::from_vec(py, packed.complete))?;
     let mut words: Vec<(&str, Bound<'py, PyString>)> = vec![];
     let mut word = |status: &'static str| match words.iter().find(|(known, _)| *known == status) {
         Some((_, word)) => word.clone(),
@@ -318,15 +278,13 @@ pub fn solve_all<'py>(
             words[words.len() - 1].1.clone()
         }
     };
-    let both = answers.iter().zip(&left_out);
-    let status = both.map(|(a, &n)| word(denavit_wire::inverse::status_within(a, n)));
-    dict.set_item("status", PyList::new(py, status.collect::<Vec<_>>())?)?;
-    let left_out: Vec<usize> = left_out.into_iter().map(Option::unwrap_or_default).collect();
-    dict.set_item("left_out", left_out)?;
+    let status: Vec<_> = packed.status.into_iter().map(&mut word).collect();
+    dict.set_item("status", PyList::new(py, status)?)?;
+    dict.set_item("left_out", packed.left_out)?;
     // Few poses have families: those that do, by their numbers.
     let families = PyDict::new(py);
-    for (number, answer) in answers.iter().enumerate().filter(|(_, a)| !a.families.is_empty()) {
-        let all = answer.families.iter().map(|f| family(py, f, solver.robot.joints));
+    for (number, all) in &packed.families {
+        let all = all.iter().map(|f| family(py, f, solver.robot.joints));
         families.set_item(number, PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)?)?;
     }
     dict.set_item("families", families)?;

@@ -11,9 +11,11 @@ mod inverse;
 mod loading;
 mod motion;
 mod named;
+mod packed;
 mod programs;
 mod ready;
 mod robot;
+mod strided;
 mod symbols;
 mod trouble;
 
