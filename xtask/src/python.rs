@@ -2,6 +2,7 @@
 
 use crate::{cargo, command, languages, path, program, scratch, succeed, target};
 use anyhow::{Context, Result, bail};
+use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -84,14 +85,26 @@ fn style(python: &Path) -> Result<()> {
     Ok(())
 }
 
-/// mypy and pyright find nothing in the package.
+/// mypy and pyright find nothing in the package, and nothing in the examples of its documentation.
 fn types(python: &Path, folder: &Path) -> Result<()> {
-    let mut check = command(python);
-    check.args(["-m", "mypy", "--strict", "--no-error-summary", "--cache-dir"]).arg(scratch()?.join("mypy"));
-    succeed(check.args(["-p", "denavit"]).env("MYPYPATH", folder))?;
-    let mut check = command(python);
-    check.args(["-m", "basedpyright", "--level", "error", "--project", "crates/python", "--pythonpath"]);
-    succeed(check.arg(python))
+    let examples = scratch()?.join("examples");
+    let mut write = command(python);
+    succeed(write.arg(path(TESTS).join("examples.py")).arg(&examples).env("PYTHONDONTWRITEBYTECODE", "1"))?;
+    for what in [&["-p", "denavit"].map(PathBuf::from)[..], std::slice::from_ref(&examples)] {
+        let mut check = command(python);
+        check.args(["-m", "mypy", "--strict", "--no-error-summary", "--cache-dir"]);
+        // JAX does not say what its settings take.
+        check.arg(scratch()?.join("mypy")).args(["--untyped-calls-exclude", "jax"]);
+        succeed(check.args(what).env("MYPYPATH", folder))?;
+    }
+    let settings = json!({ "typeCheckingMode": "standard", "extraPaths": [folder] });
+    fs::write(examples.join("pyrightconfig.json"), settings.to_string())?;
+    for project in [&path("crates/python"), &examples] {
+        let mut check = command(python);
+        check.args(["-m", "basedpyright", "--level", "error", "--project"]).arg(project);
+        succeed(check.arg("--pythonpath").arg(python))?;
+    }
+    Ok(())
 }
 
 /// The tests, beside the program.

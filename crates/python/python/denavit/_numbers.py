@@ -118,7 +118,8 @@ class Numbers:
         >>> from denavit import Robot
         >>> robot = Robot("ur5")
         >>> q = [0.3, -1.2, 1.5, 0.4, 0.9, -0.6]
-        >>> robot.ik(robot.fk(q), near=q).nearest.round(9).tolist()
+        >>> nearest = robot.ik(robot.fk(q), near=q).nearest
+        >>> nearest is not None and nearest.round(9).tolist()
         [0.3, -1.2, 1.5, 0.4, 0.9, -0.6]
         """
         return answer_of(

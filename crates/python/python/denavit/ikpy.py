@@ -23,7 +23,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -189,6 +189,18 @@ class Chain:
         names = [link.name for link in self.links]
         return f"Kinematic chain name={self.name} links={names} active_links={self.active_links_mask}"
 
+    @overload
+    def forward_kinematics(
+        self, joints: ArrayLike, full_kinematics: Literal[False] = False, **ignored: Any
+    ) -> Floats: ...
+    @overload
+    def forward_kinematics(
+        self, joints: ArrayLike, full_kinematics: Literal[True], **ignored: Any
+    ) -> list[Floats]: ...
+    @overload
+    def forward_kinematics(
+        self, joints: ArrayLike, full_kinematics: bool, **ignored: Any
+    ) -> Union[Floats, list[Floats]]: ...
     def forward_kinematics(
         self, joints: ArrayLike, full_kinematics: bool = False, **ignored: Any
     ) -> Union[Floats, list[Floats]]:
