@@ -74,7 +74,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
     let soaks: [(&str, &[&str]); 4] = [
-        ("denavit", &["inverse::", "singular::", "redundant::", "numeric::"]),
+        ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
         ("denavit-elimination", &[]),

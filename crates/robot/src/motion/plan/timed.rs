@@ -3,12 +3,16 @@
 use super::held::{TimedAlongPath, held};
 use super::{PlanError, Timing, TimingLaw};
 use crate::description::Description;
+use crate::motion::timing::Grid;
 use crate::motion::{
     InTime, JerkLimited, JointPath, JointState, Limits, Slowed, TimeOptimal, TorqueLimits, Trajectory,
 };
 
 /// A torque that is more than this part of its limit is beyond it; so much is measured between the points of a grid.
 const BEYOND: f64 = 1.002;
+
+/// Intervals of a timing within torques, which change more along them than velocities and accelerations do.
+const WITHIN_TORQUES: usize = 4000;
 
 /// A motion, and how it was timed.
 pub(super) type Timed = (Box<dyn Trajectory>, Timing);
@@ -38,11 +42,15 @@ pub(super) fn fastest<P: JointPath + 'static>(
         };
         found = Box::new(timed);
     } else {
-        let timed = TimeOptimal::default().time_within(path, limits, torques)?;
+        let mut options = TimeOptimal::default();
+        if torques.is_some() {
+            options.grid = Grid::Graded(WITHIN_TORQUES);
+        }
+        let timed = options.time_within(path, limits, torques)?;
         looked_at = torques.map(|torques| held(&timed, slower(&timed, asked), limits, Some(torques)));
         law = match torques {
             None => TimingLaw::TimeOptimal,
-            Some(torques) => TimingLaw::WithinTorques { accelerations, fastest: !torques.is_viscous() },
+            Some(_) => TimingLaw::WithinTorques { accelerations },
         };
         found = Box::new(timed);
     }

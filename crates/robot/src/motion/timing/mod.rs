@@ -7,6 +7,7 @@
 //! of them that it can reach.
 
 mod between;
+mod curved;
 mod grid;
 mod passes;
 mod stage;
@@ -23,9 +24,6 @@ use super::error::{MotionError, finite};
 use super::limits::Limits;
 use super::path::JointPath;
 use torques::Torques;
-
-/// How often tangents are laid anew where friction grows with the speed.
-const TANGENTS: usize = 3;
 
 /// Where the limits are imposed on an interval between two grid points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,8 +75,7 @@ impl TimeOptimal {
     }
 
     /// The same within torque limits, too: at the ends of every interval, and with [`Scheme::Throughout`] as far as is measured
-    /// between. Where the arm stands still it is to be within them all along the path, with Coulomb's friction against it. Of joints with
-    /// viscous friction it need not be the fastest: their friction is bounded by tangents, and where it helps to brake not counted on.
+    /// between. Where the arm stands still it is to be within them all along the path, with Coulomb's friction against it.
     ///
     /// # Errors
     /// As [`time`](Self::time), and if the arm cannot carry itself somewhere ([`MotionError::Torque`]).
@@ -95,23 +92,15 @@ impl TimeOptimal {
                 return Err(MotionError::EndSpeed { s, speed, possible: [0.0, f64::INFINITY] });
             }
         }
-        let sampled = grid::sample(&path, &self.grid)?;
-        let mut torques = match torque_limits {
-            Some(limit) => Some(Torques::new(limit, &path, &sampled, &stage::highest(&sampled, limits)?)?),
+        let turning = torque_limits.map(TorqueLimits::rubbed).unwrap_or_default();
+        let sampled = grid::sample(&path, &self.grid, &turning)?;
+        let torques = match torque_limits {
+            Some(limits) => Some(Torques::new(limits, &path, &sampled)?),
             None => None,
         };
         let mut program = stage::program(&sampled, limits, self.scheme, torques.as_ref())?;
         let ends = [self.start_speed.powi(2), self.end_speed.powi(2)];
         let mut x = passes::solve(&program, ends)?;
-        if let Some(torques) = torques.as_mut().filter(|t| t.has_roots()) {
-            for _ in 0..TANGENTS {
-                torques.lay(&x);
-                let closer = stage::program(&sampled, limits, self.scheme, Some(torques))?;
-                // Other tangents may shut what was open before.
-                let Ok(faster) = passes::solve(&closer, ends) else { break };
-                (program, x) = (closer, faster);
-            }
-        }
         if self.scheme == Scheme::Throughout {
             between::hold(&path, (limits, torque_limits), &mut program, ends, &mut x)?;
         }

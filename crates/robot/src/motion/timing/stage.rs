@@ -6,13 +6,14 @@
 //! which ends at the vertex itself after a few steps.
 
 use super::Scheme;
+use super::curved::{CurvedStage, Curves, curves};
 use super::grid::Sampled;
 use super::torques::Torques;
 use crate::motion::error::MotionError;
 use crate::motion::limits::{Limits, Range};
 
 /// A strip is left out if no possible u makes more of it than this share: then it bounds x alone.
-const NEGLIGIBLE: f64 = 1e-13;
+pub(super) const NEGLIGIBLE: f64 = 1e-13;
 /// Speeds that nothing limits are at most this times the highest that something limits.
 const UNLIMITED: f64 = 1e3;
 
@@ -32,6 +33,8 @@ pub(super) struct Program {
     /// `rows` of them a stage.
     strips: Vec<Strip>,
     rows: usize,
+    /// What is no strip, an entry an interval; none at all without viscous friction.
+    curves: Vec<Curves>,
 }
 
 /// One stage with the x of the next grid point between two bounds.
@@ -56,7 +59,11 @@ pub(super) fn program(
         Scheme::Interpolation => 2 * dof,
         Scheme::Throughout => 4 * dof + 4,
     };
-    let rows = rows + if torques.is_some() { 4 * dof } else { 0 };
+    let (straight, curved) = match torques {
+        Some(torques) if torques.has_roots() => (None, curves(torques, grid)),
+        _ => (torques, vec![]),
+    };
+    let rows = rows + if straight.is_some() { 4 * dof } else { 0 };
     let inverse = inverses(limits);
     let mut program = Program {
         s: grid.s.clone(),
@@ -65,6 +72,7 @@ pub(super) fn program(
         flat: Vec::with_capacity(n),
         strips: Vec::with_capacity(n * rows),
         rows,
+        curves: curved,
     };
     for i in 0..n {
         let step = 2.0 * (grid.s[i + 1] - grid.s[i]);
@@ -98,7 +106,7 @@ pub(super) fn program(
                 program.strips.push(strip(a, b, within, reach, &mut flat));
             }
         }
-        if let Some(torques) = torques {
+        if let Some(torques) = straight {
             torques.strips(i, step, reach, &mut flat, &mut program.strips);
         }
         program.flat.push(flat);
@@ -163,11 +171,6 @@ fn longest(dq: &[f64], inverse: &[[f64; 2]]) -> f64 {
     dq.iter().zip(inverse).fold(0.0f64, |m, (d, [low, high])| m.max((d * low).max(d * high)))
 }
 
-/// Greatest x at the grid points by the velocity limits.
-pub(super) fn highest(grid: &Sampled, limits: &Limits) -> Result<Vec<f64>, MotionError> {
-    speeds(grid, &inverses(limits))
-}
-
 /// Greatest x at the grid points by the velocity limits; 0 at corners.
 fn speeds(grid: &Sampled, inverse: &[[f64; 2]]) -> Result<Vec<f64>, MotionError> {
     let highest = |dq: &[f64]| longest(dq, inverse).powi(-2);
@@ -194,6 +197,11 @@ impl Program {
             slope: 0.5 / (self.s[i + 1] - self.s[i]),
             next,
         }
+    }
+
+    /// The same with what is no strip; `None` without viscous friction.
+    pub(super) fn curved(&self, i: usize, next: [f64; 2]) -> Option<CurvedStage<'_>> {
+        self.curves.get(i).map(|curves| CurvedStage { stage: self.stage(i, next), curves })
     }
 }
 
@@ -230,6 +238,37 @@ impl Stage<'_> {
         // Where they cross it is by rounding, and that is greater in the steeper line, which hardly depends on u.
         let u = if low > high && upper.rounding(x) > lower.rounding(x) { low } else { high };
         (x + u / self.slope).max(self.next[0]).min(self.next[1])
+    }
+
+    /// The least and the greatest x at the next grid point that strips let reach from `x`; `None` if `x` is too fast, or nothing is left.
+    pub(super) fn reached(&self, x: f64) -> Option<[f64; 2]> {
+        if x > self.highest {
+            return None;
+        }
+        let (lower, upper) = self.tightest(x);
+        let (low, high) = (lower.at(x), upper.at(x));
+        let is_open = high - low >= -(lower.rounding(x) + upper.rounding(x));
+        is_open.then(|| [x + low / self.slope, x + high / self.slope])
+    }
+
+    /// The bounds of x at the next grid point.
+    pub(super) fn next(&self) -> [f64; 2] {
+        self.next
+    }
+
+    /// The greatest x at this one.
+    pub(super) fn highest(&self) -> f64 {
+        self.highest
+    }
+
+    /// The share of the limits that is in use.
+    pub(super) fn share(&self) -> f64 {
+        self.share
+    }
+
+    /// 2Δ
+    pub(super) fn step(&self) -> f64 {
+        1.0 / self.slope
     }
 
     /// The highest of the lower lines at `x`, and the lowest of the upper ones.

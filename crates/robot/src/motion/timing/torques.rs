@@ -1,9 +1,8 @@
 //! Torque limits along a path.
 //!
-//! With q̇ = q' ṡ and q̈ = q' u + q'' x the torques are a u + b x + c + k √x: a = A q', b = A q'' + C(q, q') q', c gravity and
-//! Coulomb's friction f in the direction of q' (in both where that turns round within an interval), k = FV q'. Of the root a tangent
-//! x/2ρ + ρ/2 is taken, which is nowhere below it: the torques are then within the limits, too. The tangents are laid at the speeds that
-//! are found, and the passes run again. With viscous friction the timing is fast, then, and not proved to be the fastest.
+//! With q̇ = q' ṡ and q̈ = q' u + q'' x the torques are a u + b x + c + f + k √x: a = A q', b = A q'' + C(q, q') q', c gravity,
+//! f Coulomb's friction in the direction of q' (in both where that turns round within an interval), k = FV q'. Without viscous friction
+//! a limit is a strip in u and x; with it the stages are [curved](super::curved).
 
 use super::grid::Sampled;
 use super::stage::{Strip, strip};
@@ -12,10 +11,8 @@ use crate::motion::error::{MotionError, finite};
 use crate::motion::limits::{Limits, Range};
 use crate::motion::path::{JointPath, PathPoint, Side};
 
-/// The part of the margin at rest that the tangent's constant takes at most.
-const MARGIN: f64 = 0.25;
-/// Tangents are laid at no less than this part of the speed that the margin allows.
-const LEAST: f64 = 1e-3;
+/// A joint that is slower than this part of the fastest turns round.
+const TURN: f64 = 1e-9;
 
 /// An arm with masses, and what its drives can do: N m, N for slides.
 #[derive(Clone, PartialEq, Debug)]
@@ -47,15 +44,13 @@ pub(in crate::motion) struct Torque {
     pub k: f64,
 }
 
-/// The torques at the grid points, approached from both sides: entry `i * dof + joint`; and ρ.
+/// The torques at the grid points, approached from both sides: entry `i * dof + joint`.
 pub(super) struct Torques<'a> {
     limits: &'a TorqueLimits,
     behind: Vec<Torque>,
     before: Vec<Torque>,
-    /// Where the tangents are laid, a speed a grid point.
-    at: Vec<f64>,
-    /// The highest speeds there.
-    highest: Vec<f64>,
+    /// The least and the greatest of Coulomb's friction within the intervals: entry `i * dof + joint`.
+    friction: Vec<[f64; 2]>,
 }
 
 impl TorqueLimits {
@@ -122,7 +117,12 @@ impl TorqueLimits {
         Ok(())
     }
 
-    /// Whether a joint has viscous friction, which is bounded by tangents.
+    /// Whether joints have Coulomb's friction, one by one.
+    pub(super) fn rubbed(&self) -> Vec<bool> {
+        self.arm.drives.iter().map(|d| d.coulomb != 0.0).collect()
+    }
+
+    /// Whether a joint has viscous friction.
     pub(crate) fn is_viscous(&self) -> bool {
         self.arm.drives.iter().any(|d| d.viscous != 0.0)
     }
@@ -148,7 +148,6 @@ impl<'a> Torques<'a> {
         limits: &'a TorqueLimits,
         path: &P,
         grid: &Sampled,
-        highest: &[f64],
     ) -> Result<Self, MotionError> {
         let dof = grid.dof;
         let (mut behind, mut before) = (vec![], vec![]);
@@ -162,11 +161,29 @@ impl<'a> Torques<'a> {
                 all.extend(torques);
             }
         }
-        let highest = highest.iter().map(|x| x.sqrt()).collect();
-        let mut torques = Torques { limits, behind, before, at: vec![], highest };
-        torques.at = torques.highest.clone();
-        torques.hold_margin();
-        Ok(torques)
+        let mut friction = vec![];
+        for (i, s) in grid.s.windows(2).enumerate() {
+            let [first, last] = [&grid.behind[0][i * dof..], &grid.before[0][(i + 1) * dof..]];
+            path.eval_into(f64::midpoint(s[0], s[1]), Side::Behind, &mut point);
+            let greatest = point.dq.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+            for (joint, &middle) in point.dq.iter().enumerate() {
+                // What hardly moves at a grid point turns round there.
+                let signs = [first[joint], middle, last[joint]];
+                let signs = signs.map(|d| if d.abs() <= TURN * greatest { 0.0 } else { d.signum() });
+                let (drive, range) = (limits.arm.drives[joint], limits.ranges[joint]);
+                let found = signs.into_iter().filter(|s| *s != 0.0).map(|s| s * drive.coulomb);
+                let [least, most] = found
+                    .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], f| [least.min(f), most.max(f)]);
+                let [least, most] = if least > most { [0.0; 2] } else { [least, most] };
+                friction.push([least, most]);
+                for t in [behind[i * dof + joint], before[(i + 1) * dof + joint]] {
+                    if !(range.lower < t.c + least && t.c + most < range.upper) {
+                        return Err(MotionError::Torque { joint, s: s[0] });
+                    }
+                }
+            }
+        }
+        Ok(Torques { limits, behind, before, friction })
     }
 
     /// Whether there is a root in the torques.
@@ -174,52 +191,34 @@ impl<'a> Torques<'a> {
         self.behind.iter().chain(&self.before).any(|t| t.k != 0.0)
     }
 
-    /// Lays the tangents at the speeds that were found.
-    pub fn lay(&mut self, x: &[f64]) {
-        self.at = x.iter().map(|x| x.sqrt()).collect();
-        self.hold_margin();
+    /// What the drives can do, joint by joint.
+    pub fn ranges(&self) -> &[Range] {
+        &self.limits.ranges
     }
 
-    /// Tangents whose constants leave most of what is left at rest.
-    fn hold_margin(&mut self) {
+    /// The torque of a joint at the start and at the end of interval `i`.
+    pub fn ends(&self, i: usize, joint: usize) -> [Torque; 2] {
         let dof = self.limits.dof();
-        for (i, at) in self.at.iter_mut().enumerate() {
-            let mut most = self.highest[i];
-            for (joint, range) in self.limits.ranges.iter().enumerate() {
-                for t in [self.behind[i * dof + joint], self.before[i * dof + joint]] {
-                    let left = if t.k < 0.0 { t.c - range.lower } else { range.upper - t.c } - t.f.abs();
-                    if t.k != 0.0 {
-                        most = most.min(2.0 * MARGIN * left / t.k.abs());
-                    }
-                }
-            }
-            *at = at.clamp(LEAST * most, most);
-        }
+        [self.behind[i * dof + joint], self.before[(i + 1) * dof + joint]]
     }
 
-    /// Two strips a joint for each end of interval `i`: the upper limit and the lower one.
+    /// The least and the greatest friction of a joint within interval `i`, by Coulomb.
+    pub fn friction(&self, i: usize, joint: usize) -> [f64; 2] {
+        self.friction[i * self.limits.dof() + joint]
+    }
+
+    /// Two strips a joint for each end of interval `i`, the upper limit and the lower one, without viscous friction.
     pub fn strips(&self, i: usize, step: f64, reach: f64, flat: &mut f64, out: &mut Vec<Strip>) {
-        let dof = self.limits.dof();
         for (joint, range) in self.limits.ranges.iter().enumerate() {
-            let (start, end) = (self.behind[i * dof + joint], self.before[(i + 1) * dof + joint]);
+            let [start, end] = self.ends(i, joint);
             // Where the joint turns round, friction is met in both directions.
-            let (f_most, f_least) = (start.f.max(end.f), start.f.min(end.f));
-            for (t, at, step) in [(start, self.at[i], 0.0), (end, self.at[i + 1], step)] {
-                for is_upper in [true, false] {
-                    // Friction that helps is not counted on.
-                    let against = if is_upper { t.k.max(0.0) } else { t.k.min(0.0) };
-                    let (slope, constant) = if against == 0.0 || at == 0.0 {
-                        (0.0, 0.0)
-                    } else {
-                        (against / (2.0 * at), against * at / 2.0)
-                    };
-                    let (b, c) = (t.b + slope, t.c + constant + if is_upper { f_most } else { f_least });
-                    let range = match is_upper {
-                        true => Range { lower: f64::NEG_INFINITY, upper: range.upper - c },
-                        false => Range { lower: range.lower - c, upper: f64::INFINITY },
-                    };
+            let [f_least, f_most] = self.friction(i, joint);
+            for (t, step) in [(start, 0.0), (end, step)] {
+                let upper = Range { lower: f64::NEG_INFINITY, upper: range.upper - t.c - f_most };
+                let lower = Range { lower: range.lower - t.c - f_least, upper: f64::INFINITY };
+                for range in [upper, lower] {
                     // At the next point x is x + 2Δu: (a + 2Δb) u + b x.
-                    out.push(strip(t.a + step * b, b, range, reach, flat));
+                    out.push(strip(t.a + step * t.b, t.b, range, reach, flat));
                 }
             }
         }
