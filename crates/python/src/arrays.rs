@@ -6,8 +6,8 @@ use crate::trouble::{Kind, Trouble};
 use denavit_program::Real;
 use numpy::ndarray::ArrayViewD;
 use numpy::{
-    Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
-    PyUntypedArrayMethods,
+    Element, IntoPyArray, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
@@ -141,6 +141,19 @@ pub fn array<'py>(object: &Bound<'py, PyAny>, what: &str) -> PyResult<Rows<'py>>
         }
         _ => Rows::Double(Values::Lent(ordered.cast::<PyArrayDyn<f64>>()?.try_readonly().map_err(borrowed)?)),
     })
+}
+
+/// A matrix of entries that stand row by row.
+///
+/// # Errors
+/// If there are not as many.
+pub fn matrix<'py>(
+    py: Python<'py>,
+    entries: Vec<f64>,
+    rows: usize,
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    entries.into_pyarray(py).reshape([rows, columns])
 }
 
 /// The leading shape of an array whose last axes are `tail`.

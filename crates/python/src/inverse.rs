@@ -1,6 +1,6 @@
 //! Joint variables for poses.
 
-use crate::arrays::{Rows, array, leading};
+use crate::arrays::{Rows, array, leading, matrix};
 use crate::loading::derive;
 use crate::named::options;
 use crate::packed::Packed;
@@ -10,7 +10,7 @@ use denavit::geometry::Transform;
 use denavit::inverse::{Family, Goal, InverseKinematics, InverseModel, Unprepared};
 use denavit_program::solver::SolverFunction;
 use denavit_report::words::Tongue;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString};
 use std::collections::HashMap;
@@ -213,19 +213,6 @@ pub fn solve<'py>(
     });
     dict.set_item("obstacle", obstacle)?;
     Ok(dict)
-}
-
-/// A matrix of entries that stand row by row.
-///
-/// # Errors
-/// If there are not as many.
-pub fn matrix<'py>(
-    py: Python<'py>,
-    entries: Vec<f64>,
-    rows: usize,
-    columns: usize,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    entries.into_pyarray(py).reshape([rows, columns])
 }
 
 fn family<'py>(py: Python<'py>, f: &Family, joints: usize) -> PyResult<Bound<'py, PyDict>> {

@@ -1,6 +1,7 @@
 //! Paths of the joints and of the hand, followed and timed.
 
-use crate::inverse::{matrix, poses, unprepared};
+use crate::arrays::matrix;
+use crate::inverse::{poses, unprepared};
 use crate::trouble::{Kind, Trouble};
 use denavit::Robot;
 use denavit::description::Description;

@@ -1,6 +1,6 @@
 //! Answers one behind the other, in arrays: as they are found, so that an answer's own memory is used again for the next one.
 
-use crate::inverse::matrix;
+use crate::arrays::matrix;
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, Branch, Family, InverseKinematics};
 use numpy::{IntoPyArray, PyArray1};
