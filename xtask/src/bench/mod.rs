@@ -88,8 +88,8 @@ fn renew(title: &str, section: &str) -> Result<()> {
     };
     let today = date(SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400);
     let text = format!(
-        "{}{heading}\nMeasured {today} on {}.\n\n{}\n{}",
-        &page[..start],
+        "{}\n\n{heading}\nMeasured {today} on {}.\n\n{}\n{}",
+        page[..start].trim_end(),
         machine(),
         section.trim_end(),
         if end < page.len() { format!("\n{}", &page[end..]) } else { String::new() }
