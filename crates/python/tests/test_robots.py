@@ -260,7 +260,7 @@ def test_everything_public_is_described():
 
 
 def test_import_is_quick():
-    code = "import numpy, time; t = time.perf_counter(); import denavit; print(time.perf_counter() - t)"
+    code = "import numpy, time; t = time.process_time(); import denavit; print(time.process_time() - t)"
     times = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(5)]
     assert min(times) < 0.1, times
 

@@ -90,7 +90,8 @@ class Answer:
     doubt: Optional[str] = None
     #: How many solutions and families the limits exclude, where these were asked for.
     left_out: int = 0
-    #: The solution nearest to ``near``, whole turns away where that is nearer and the limits allow it.
+    #: The solution nearest to ``near``, of those within the limits if there are some; whole turns away where that is nearer and
+    #: the limits allow it.
     nearest: Optional[Floats] = None
     #: Why there is none.
     obstacle: Optional[Obstacle] = None

@@ -102,7 +102,7 @@ class Numbers:
         pose
             A 4×4 matrix; ``(p, xyzw)``, ``(p, R)`` or ``(p, Rotation)`` with SciPy's rotations; a spatialmath ``SE3``.
         near
-            A configuration ``(n,)``: `Answer.nearest` is the solution next to it.
+            A configuration ``(n,)``: `Answer.nearest` is the solution next to it, of those within the limits if there are some.
         limits
             Whether solutions that the joints' limits exclude are left out.
         one
