@@ -45,6 +45,7 @@ mod plain_tables;
 mod plan;
 mod product;
 mod programs;
+mod reaches;
 mod readings;
 mod recognised;
 mod remarks;
@@ -224,6 +225,8 @@ pub fn check(
         c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
     });
     let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims);
+    let of_arm = reaches::judged(text, &plan, &walked, &claims);
+    claims.extend(of_arm);
     let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
     unjudged.extend(of_dynamics);
     unjudged.extend(givens::unused(text, &plan, &walked, &claims));

@@ -94,7 +94,7 @@ mod tests {
                 "With a force of 10 N along x and -20 N along z (base frame) at the flange",
                 Some("10 0 -20 0 0 0"),
             ),
-            ("Tip force 12 N along x, -5 N along y, moment 0.8 Nm.", Some("12 -5 0 0 0 4/5")),
+            ("Tip force 12 N along x, -5 N along y, moment 0.8 Nm.", Some("12 -5 0 0 0 0.8")),
             ("10 N along x. Later 12 N along x", None),
             ("F3 = 8.192 N", None),
             ("a motor of 5 N", None),

@@ -200,7 +200,12 @@ fn told(text: &str, plan: &Plan) -> Vec<Vector<Expr>> {
         if !words.any(|w| last.iter().any(|l| l == w)) {
             continue;
         }
-        let value = |p: &&str| parse(&p.replace('−', "-"), &names).ok().filter(|e| is_short(*e));
+        // `^3P_W = (m, 0, 0)`: a letter of any kind, as it is one of a place.
+        let is_named = before.trim_end().trim_end_matches(['[', '(']).trim_end().ends_with('=');
+        let is_letter =
+            |e: Expr| e.symbols().len() <= 1 && e.symbols().iter().all(|s| s.name().chars().count() <= 2);
+        let is_size = |e: &Expr| is_short(*e) || is_named && is_letter(*e);
+        let value = |p: &&str| parse(&p.replace('−', "-"), &names).ok().filter(is_size);
         let Some(place) = parts.iter().map(value).collect::<Option<Vec<Expr>>>() else { continue };
         let [x, y, z] = place[..] else { continue };
         let place = Vector([x, y, z]);

@@ -2,7 +2,7 @@
 
 use super::{Defined, Pair, Piece, Scalar, Walk};
 use crate::directions::{parallel_sum, sum_in_pose};
-use crate::facts::About;
+use crate::facts::{About, Meaning};
 use crate::habits::Places;
 use crate::lexis::read;
 use denavit::random::Random;
@@ -127,6 +127,38 @@ impl Walk<'_> {
                 && denavit_symbolic::equal(place[r], value).is_equal()
         })?;
         Some(self.lexis.pose_symbol(r, 3).into())
+    }
+
+    /// A name that means an entry of the pose by custom where it stands alone, `x_P = …`, means it in formulas behind as well.
+    pub(super) fn know_entry(&mut self, span: &Range<usize>, wanted: Expr) {
+        if self.lexis.formula(self.text, span).is_ok() {
+            return;
+        }
+        let Some(name) = self.lexis.lone_name(self.text, span) else { return };
+        let pose = self.subject.pose().matrix();
+        let place = (0..12).map(|k| (k / 4, k % 4)).find(|&(r, c)| pose[r][c] == wanted);
+        if let Some((r, c)) = place.filter(|_| !wanted.symbols().is_empty()) {
+            let entry = self.lexis.pose_symbol(r, c).into();
+            self.lexis.define_right(&plain_name(&format!("{}{}", name.base, name.sub)), wanted, entry);
+        }
+    }
+
+    /// The components of a place that a statement gives a letter, `Q = (…)`: `Q_x`, `Q_y`, `Q_z`.
+    pub(super) fn know_components(&mut self, statement: &Statement) {
+        let last = self.assertions.last().filter(|a| a.span.end == statement.span.end);
+        if !last.is_some_and(|a| a.about == About::Matrix(Meaning::Position)) {
+            return;
+        }
+        let Some(name) = statement.sides.first().and_then(|s| self.lone(s)) else { return };
+        let letter = format!("{}{}", name.base, name.sub);
+        let place = self.subject.pose().translation.0;
+        for (r, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let component = plain_name(&format!("{letter}{axis}"));
+            if letter.chars().count() <= 2 && self.lexis.names.lookup(&component).is_none() {
+                let entry = self.lexis.pose_symbol(r, 3).into();
+                self.lexis.define_right(&component, place[r], entry);
+            }
+        }
     }
 
     /// Keeps a name that a statement defines, with its value, and that with the entries of the pose as symbols.

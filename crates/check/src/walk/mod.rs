@@ -342,6 +342,7 @@ impl<'a> Walk<'a> {
             return;
         }
         self.matrices(statement, claim);
+        self.know_components(statement);
         self.keep_printed(statement);
     }
 

@@ -324,6 +324,9 @@ impl Walk<'_> {
         } else {
             About::Equation
         };
+        if at == 0 {
+            self.know_entry(&spans[0], wanted);
+        }
         let mut assertion = self.assertion(statement, about);
         assertion.pieces = pieces;
         assertion.reference = formulas().find(|f| f.0 == at).map(|(_, span, s)| (span.clone(), s.clone()));
