@@ -268,6 +268,13 @@ impl Walk<'_> {
         if right.value().symbols().is_empty() && self.is_right_name(span) && self.tells_goal(statement) {
             return true;
         }
+        // What moves the hand so fast is a claim, but for a velocity for which rates are asked.
+        let symbols = left.value().symbols();
+        let is_velocity =
+            self.subject.rates().iter().any(|r| r.as_symbol().is_some_and(|s| symbols.contains(&s)));
+        if is_velocity && is_measured(right.value()) && !self.asks_for_rates(statement) {
+            return false;
+        }
         statement.place == Place::Inline
             && self.is_right_name(span)
             && moves(left.value())

@@ -513,6 +513,13 @@ impl Walk<'_> {
         grid.rows.iter().all(|r| r.len() == 1) && spans.any(|s| s.contains(r"\dot") || s.contains('\u{307}'))
     }
 
+    /// The matrix that words name.
+    pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
+        let name = self.lexis.lone_name(words, &(0..words.len()))?;
+        let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;
+        Some(Reference { matrix, about: Some(about?) })
+    }
+
     /// The one name that a side is.
     pub(super) fn lone(&self, side: &Side) -> Option<Name> {
         match &side.parts[..] {

@@ -196,6 +196,26 @@ impl Walk<'_> {
         self.words_around(statement).any(|w| ONLY.iter().any(|o| w.contains(o)))
     }
 
+    /// True where words before a statement ask for rates, or give a velocity that is wanted.
+    pub(super) fn asks_for_rates(&self, statement: &Statement) -> bool {
+        const WANTED: [&str; 12] = [
+            "with ",
+            "for ",
+            "want",
+            "should",
+            "soll",
+            "gewünscht",
+            "pour ",
+            "avec ",
+            "para ",
+            "per ",
+            "desir",
+            "given",
+        ];
+        let words = self.sentence_before(statement).to_lowercase();
+        RATES.iter().chain(&WANTED).any(|w| words.contains(w))
+    }
+
     /// What stands before a statement in its sentence, or in the part of it behind a semicolon.
     fn sentence_before(&self, statement: &Statement) -> &str {
         const FAR: usize = 300;

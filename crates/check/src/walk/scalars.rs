@@ -1,7 +1,7 @@
 //! Equations between scalars: entries, definitions, identities, values of joints and angles.
 
 use super::cases::is_choice_of_sign;
-use super::{Assertion, Pair, Piece, Reference, Scalar, Spoken, Walk};
+use super::{Assertion, Pair, Piece, Scalar, Spoken, Walk};
 use crate::facts::About;
 use crate::habits::with_named_signs;
 use crate::lexis::set_in;
@@ -523,12 +523,6 @@ impl Walk<'_> {
     /// True for a number with its unit, `0 mm`.
     fn is_quantity(&self, span: &Range<usize>, syntax: &Syntax) -> bool {
         syntax.value().symbols().is_empty() && crate::numbers::unit_behind(self.source(span)).is_some()
-    }
-
-    pub(super) fn told_matrix(&self, words: &str) -> Option<Reference> {
-        let name = self.lexis.lone_name(words, &(0..words.len()))?;
-        let (matrix, about) = self.lexis.matrix(&self.subject, &name)?;
-        Some(Reference { matrix, about: Some(about?) })
     }
 }
 

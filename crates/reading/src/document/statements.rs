@@ -400,11 +400,22 @@ impl<'t> Reader<'t> {
                 if *bracket == super::lexer::Bracket::Round)
         };
         let number = nodes.len().checked_sub(1).filter(|&i| i > related + 1 && self.is_number(&nodes[i]));
-        let Some(at) = prose.or(quad.filter(lone)).or(number) else { return (nodes, None) };
+        let remark = nodes.len().checked_sub(1).filter(|&i| i > related + 1 && self.is_remark(&nodes[i]));
+        let Some(at) = prose.or(quad.filter(lone)).or(number).or(remark) else { return (nodes, None) };
         let kept = nodes.get(..at).unwrap_or(nodes);
         let aside = nodes.get(at..).unwrap_or(&[]);
         let aside = aside.iter().find(|n| !n.is(Kind::Quad)).zip(aside.last());
         (trim(self.text, kept), aside.map(|(a, b)| a.span.start..b.span.end))
+    }
+
+    /// `(elbow)`, or `correct` far behind: a word that is no name.
+    fn is_remark(&self, node: &Node) -> bool {
+        let shown = cut(self.text, &node.span);
+        let inner = shown.strip_prefix('(').and_then(|s| s.strip_suffix(')')).map(str::trim);
+        match inner {
+            Some(inner) => node.gap > Gap::None && words::is_long_word(inner),
+            None => node.gap == Gap::Wide && node.is(Kind::Word) && words::is_long_word(shown),
+        }
     }
 
     /// `(3)`, set off from what is before it: the number of an equation.

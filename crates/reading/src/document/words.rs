@@ -139,6 +139,11 @@ fn is_plain(word: &str) -> bool {
         && !is_greek(word)
 }
 
+/// A word of at least four small letters that is no function and no Greek letter.
+pub(super) fn is_long_word(word: &str) -> bool {
+    is_plain(word) && word.chars().count() >= 4 && word.chars().all(char::is_lowercase)
+}
+
 /// Whether `span`, outside of any formula's marks, reads as prose or as a program rather than as a formula.
 pub(super) fn is_prose(text: &str, span: &Range<usize>) -> bool {
     let tokens = lex(text, span);
