@@ -26,6 +26,9 @@
 #include "panda_moving_double_c.h"
 #include "panda_moving_float_c.h"
 
+// The same in long double, made of the text in C.
+#include "truth.h"
+
 namespace {
 
 // Configurations that are timed, and those of them that are compared with C.
@@ -94,18 +97,19 @@ template <class R> std::vector<R> configurations(size_t angles, size_t inputs)
 double bandwidth;
 bool is_first = true;
 
-void figure(const char *arm, const char *name, const char *real, double time, double bytes, double off)
+void figure(const char *arm, const char *name, const char *real, double time, double bytes, double off, double own)
 {
-    printf("%s{\"arm\": \"%s\", \"name\": \"%s\", \"real\": \"%s\", \"ns\": %.4f, \"bytes\": %.0f, \"share\": %.4f, \"off\": %.3g}",
+    printf("%s{\"arm\": \"%s\", \"name\": \"%s\", \"real\": \"%s\", \"ns\": %.4f, \"bytes\": %.0f, \"share\": %.4f, \"off\": %.3g, \"c\": %.3g}",
            is_first ? "" : ", ", arm, name, real, time / (double)COUNT * 1e9, bytes,
-           bytes * (double)COUNT / time / bandwidth, off);
+           bytes * (double)COUNT / time / bandwidth, off, own);
     is_first = false;
 }
 
-// Runs a kernel and C. `used` of the inputs are read; the difference is the largest of all results, in units in the last
-// place of the largest that any of them becomes.
-template <class R, class Kernel, class C>
-void function(const char *arm, const char *name, size_t angles, size_t inputs, size_t used, size_t results, Kernel kernel, C c)
+// Runs a kernel, C, and C in long double. `used` of the inputs are read; the differences of the kernel and of C from the last
+// are the largest of all results, in units in the last place of the largest that any of them becomes.
+template <class R, class Kernel, class C, class Truth>
+void function(const char *arm, const char *name, size_t angles, size_t inputs, size_t used, size_t results, Kernel kernel, C c,
+              Truth truth)
 {
     const std::vector<R> q = configurations<R>(angles, inputs);
     Array<R> in(q.size()), out(results * COUNT);
@@ -114,21 +118,25 @@ void function(const char *arm, const char *name, size_t angles, size_t inputs, s
     const double time = seconds([&] { kernel<<<blocks, THREADS>>>(COUNT, in.place, out.place); });
     std::vector<R> values(results * COUNT);
     must(cudaMemcpy(values.data(), out.place, values.size() * sizeof(R), cudaMemcpyDeviceToHost));
-    double apart = 0.0, size = 0.0;
-    std::vector<R> own(inputs), right(results);
+    double apart = 0.0, of_c = 0.0, size = 0.0;
+    std::vector<R> own(inputs), in_c(results);
+    std::vector<long double> exact(inputs), right(results);
     for (size_t i = 0; i < HELD; i++) {
         for (size_t j = 0; j < inputs; j++) {
-            own[j] = q[j * COUNT + i];
+            exact[j] = own[j] = q[j * COUNT + i];
         }
-        c(own.data(), right.data());
+        c(own.data(), in_c.data());
+        truth(exact.data(), right.data());
         for (size_t k = 0; k < results; k++) {
-            const double difference = std::fabs((double)values[k * COUNT + i] - (double)right[k]);
+            const double difference = (double)std::fabs((long double)values[k * COUNT + i] - right[k]);
             apart = difference <= apart ? apart : difference; // also if it is no number
+            of_c = std::max(of_c, (double)std::fabs((long double)in_c[k] - right[k]));
             size = std::max(size, std::fabs((double)right[k]));
         }
     }
-    const double off = apart / (size * std::numeric_limits<R>::epsilon());
-    figure(arm, name, sizeof(R) == 8 ? "double" : "float", time, (double)((used + results) * sizeof(R)), off);
+    const double unit = size * std::numeric_limits<R>::epsilon();
+    figure(arm, name, sizeof(R) == 8 ? "double" : "float", time, (double)((used + results) * sizeof(R)), apart / unit,
+           of_c / unit);
 }
 
 // The closed form, of the poses of random configurations: the difference is the share of poses whose number of solutions,
@@ -182,26 +190,34 @@ void inverse()
         others += !is_same;
     }
     const double written = 2.0 + 10.0 * (double)solutions / (double)COUNT;
-    figure("UR5", "ik", "double", time, 8.0 * (12.0 + written), 1e6 * (double)others / (double)HELD);
+    figure("UR5", "ik", "double", time, 8.0 * (12.0 + written), 1e6 * (double)others / (double)HELD, 0.0);
 }
 
 } // namespace
 
 #define KINEMATIC(title, prefix, R, N)                                                                                 \
     function<R>(title, "fk", N, N, N, 16, prefix##_cuda_fk_kernel,                                                     \
-                [](const R *x, R *y) { prefix##_c_fk(x, (R(*)[4])y); });                                               \
+                [](const R *x, R *y) { prefix##_c_fk(x, (R(*)[4])y); },                                               \
+                [](const long double *x, long double *y) { prefix##_truth_fk(x, (long double(*)[4])y); });                                               \
     function<R>(title, "jacobian", N, N, N, 6 * N, prefix##_cuda_jacobian_kernel,                                      \
-                [](const R *x, R *y) { prefix##_c_jacobian(x, (R(*)[N])y); });
+                [](const R *x, R *y) { prefix##_c_jacobian(x, (R(*)[N])y); },                                          \
+                [](const long double *x, long double *y) { prefix##_truth_jacobian(x, (long double(*)[N])y); });
 #define DYNAMIC(title, prefix, R, N)                                                                                   \
     function<R>(title, "torque", N, 3 * N, 3 * N, N, prefix##_cuda_torque_kernel,                                      \
-                [](const R *x, R *y) { prefix##_c_torque(x, y); });                                                    \
+                [](const R *x, R *y) { prefix##_c_torque(x, y); },                                                     \
+                [](const long double *x, long double *y) { prefix##_truth_torque(x, y); });                                                    \
     function<R>(title, "inertia", N, 3 * N, N, N * N, prefix##_cuda_inertia_kernel,                                    \
-                [](const R *x, R *y) { prefix##_c_inertia(x, (R(*)[N])y); });                                          \
+                [](const R *x, R *y) { prefix##_c_inertia(x, (R(*)[N])y); },                                           \
+                [](const long double *x, long double *y) { prefix##_truth_inertia(x, (long double(*)[N])y); });                                          \
     function<R>(title, "acceleration", N, 3 * N, 3 * N, N, prefix##_cuda_acceleration_kernel,                          \
-                [](const R *x, R *y) { prefix##_c_acceleration(x, y); });                                              \
+                [](const R *x, R *y) { prefix##_c_acceleration(x, y); },                                               \
+                [](const long double *x, long double *y) { prefix##_truth_acceleration(x, y); });                                              \
     function<R>(title, "torque_with_derivatives", N, 3 * N, 3 * N, N * (3 * N + 1),                                    \
                 prefix##_cuda_torque_with_derivatives_kernel,                                                          \
-                [](const R *x, R *y) { prefix##_c_torque_with_derivatives(x, (R(*)[3 * N + 1])y); });
+                [](const R *x, R *y) { prefix##_c_torque_with_derivatives(x, (R(*)[3 * N + 1])y); },                   \
+                [](const long double *x, long double *y) {                                                             \
+                    prefix##_truth_torque_with_derivatives(x, (long double(*)[3 * N + 1])y);                           \
+                });
 
 int main()
 {
