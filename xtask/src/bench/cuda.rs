@@ -43,7 +43,10 @@ pub fn run() -> Result<String> {
     fs::create_dir_all(&folder)?;
     prepared(&folder)?;
     let mut nvcc = Command::new("nvcc");
-    nvcc.args(["-O3", "-arch=native", "bench.cu"]).args(objects()).args(["truth.o", "-o", "bench"]).current_dir(&folder);
+    nvcc.args(["-O3", "-arch=native", "bench.cu"])
+        .args(objects())
+        .args(["truth.o", "-o", "bench"])
+        .current_dir(&folder);
     quietly(&mut nvcc).context("this part needs CUDA's compiler")?;
     let measured: Value = serde_json::from_str(&output(&mut Command::new(folder.join("bench")))?)
         .context("the benchmark prints JSON")?;
@@ -106,7 +109,8 @@ fn truth(folder: &Path) -> Result<()> {
             text += &own;
         }
     }
-    let header = format!("#ifdef __cplusplus\nextern \"C\" {{\n#endif\n{header}#ifdef __cplusplus\n}}\n#endif\n");
+    let header =
+        format!("#ifdef __cplusplus\nextern \"C\" {{\n#endif\n{header}#ifdef __cplusplus\n}}\n#endif\n");
     fs::write(folder.join("truth.h"), header)?;
     fs::write(folder.join("truth.c"), text)?;
     let mut gcc = Command::new("gcc");
