@@ -242,11 +242,15 @@ impl Subject {
 
     /// What a determinant that does not vanish everywhere becomes where a joint has a value, if it vanishes there.
     pub fn singular_at(&self, joint: Symbol, value: Expr) -> Option<Expr> {
-        let zero = Expr::int(0);
-        let all = [Part::Any, Part::Linear].into_iter().filter_map(|part| self.determinant(part));
         let at = |e: Expr| e.substitute(|s| (s == joint).then_some(value));
-        let vanishes = |e: Expr| equal(e, zero).is_equal();
-        all.filter(|d| !vanishes(*d)).map(at).find(|e| vanishes(*e))
+        self.determinants().into_iter().map(at).find(|e| equal(*e, Expr::int(0)).is_equal())
+    }
+
+    /// The determinants of the whole Jacobian, of its linear and of its angular rows, but for those that vanish everywhere.
+    pub fn determinants(&self) -> Vec<Expr> {
+        let all =
+            [Part::Any, Part::Linear, Part::Angular].into_iter().filter_map(|part| self.determinant(part));
+        all.filter(|d| !equal(*d, Expr::int(0)).is_equal()).collect()
     }
 
     /// A formula that is zero only where the arm is singular, as it divides the determinant: the formula times what does not
@@ -274,8 +278,7 @@ impl Subject {
             })
         };
         let is_zero = |e: Expr| equal(e, Expr::int(0)).is_equal();
-        let known: Vec<Expr> =
-            [Part::Any, Part::Linear].into_iter().filter_map(|part| self.determinant(part)).collect();
+        let known = self.determinants();
         let factors = known.iter().filter_map(|d| factored(*d, &d.symbols()).ok()).flat_map(|f| f.factors);
         let candidates: Vec<Expr> = factors.map(|f| f.0).chain(known.iter().copied()).collect();
         candidates.into_iter().filter(|f| moving(*f) == of).find_map(|factor| {

@@ -290,7 +290,22 @@ impl Walk<'_> {
     pub(super) fn tells_goal(&self, statement: &Statement) -> bool {
         let before = self.text.get(..statement.span.start).unwrap_or_default();
         let line = before.rsplit('\n').next().unwrap_or_default();
-        tells_goal(&line.rsplit(". ").next().unwrap_or_default().to_lowercase())
+        let sentence = line.rsplit(". ").next().unwrap_or_default().to_lowercase();
+        tells_goal(&sentence) || self.asks_for_joints(statement, &sentence)
+    }
+
+    /// True for a number in a question for joints: `welche Gelenkwinkel gehören zu x = 0,30 und y = 0,80?`
+    fn asks_for_joints(&self, statement: &Statement, sentence: &str) -> bool {
+        const JOINTS: [&str; 12] = [
+            "angle", "joint", "winkel", "gelenk", "ángulo", "articula", "angoli", "giunt", "ângulo", "junta",
+            "hoek", "gewricht",
+        ];
+        const FAR: usize = 120;
+        let rest = self.text.get(statement.span.end..).unwrap_or_default();
+        let is_question = rest.find(['?', '\n']).is_some_and(|at| at < FAR && rest[at..].starts_with('?'));
+        let is_of_rates =
+            ["rate", "speed", "veloc", "geschwind", "vitesse", "snelhe"].iter().any(|w| sentence.contains(w));
+        is_question && !is_of_rates && JOINTS.iter().any(|w| sentence.contains(w))
     }
 }
 

@@ -129,6 +129,27 @@ impl Walk<'_> {
         Some(self.lexis.pose_symbol(r, 3).into())
     }
 
+    /// What `G_y` is where `G_x` was given as the hand's: the entry of the place, and its symbol. Only of a formula of the joints.
+    fn place_by_sibling(&self, name: &str, value: Expr) -> Option<(Expr, Expr)> {
+        const AXES: [char; 3] = ['x', 'y', 'z'];
+        let joints = self.subject.joints();
+        let axis = AXES.iter().position(|a| name.ends_with(*a) || name.starts_with(*a) && name.len() > 1)?;
+        let with = |other: char| match name.ends_with(AXES[axis]) {
+            true => format!("{}{other}", &name[..name.len() - 1]),
+            false => format!("{other}{}", &name[1..]),
+        };
+        // What the document itself has given as a formula of the joints, not what a name is by custom.
+        let is_place = |k: usize| {
+            let sibling = with(AXES[k]);
+            let given = self.defined.iter().filter(|d| d.subject == self.number && d.name == sibling);
+            let symbol = Some(Expr::from(self.lexis.pose_symbol(k, 3)));
+            given.into_iter().any(|d| self.place_of(d.value) == symbol)
+        };
+        let moves = value.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        let is_own = name.len() > 1 && moves && (0..3).any(|k| k != axis && is_place(k));
+        is_own.then(|| (self.subject.pose().translation.0[axis], self.lexis.pose_symbol(axis, 3).into()))
+    }
+
     /// A name that means an entry of the pose by custom where it stands alone, `x_P = …`, means it in formulas behind as well.
     pub(super) fn know_entry(&mut self, span: &Range<usize>, wanted: Expr) {
         if self.lexis.formula(self.text, span).is_ok() {
@@ -180,7 +201,9 @@ impl Walk<'_> {
         let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
         let is_sum = |sum: &Expr| shown.is_some() && denavit_symbolic::equal(value, *sum).is_equal();
         let of_hand = parallel_sum(&self.subject).filter(is_sum);
-        let inverse = shown.or_else(|| self.place_of(value)).unwrap_or(inverse);
+        let sibling = self.place_by_sibling(&name, value);
+        let inverse = shown.or_else(|| self.place_of(value)).or(sibling.map(|s| s.1)).unwrap_or(inverse);
+        let meant = sibling.map_or(value, |s| s.0);
         if let Some(wanted) = of_hand {
             // What the name means is seen: the angle of the hand.
             let mut assertion = self.assertion(statement, About::Equation);
@@ -194,7 +217,7 @@ impl Walk<'_> {
             })];
             self.assertions.push(assertion);
         }
-        self.lexis.define(&name, value);
+        self.lexis.define(&name, meant);
         self.lexis.define_inverse(&name, inverse);
         self.defined.push(Defined {
             name,

@@ -2,7 +2,6 @@
 
 use super::{Assertion, Pair, Piece, Scalar, Walk};
 use crate::facts::About;
-use crate::jacobians::Part;
 use crate::note::Unreadable;
 use denavit::description::JointKind;
 use denavit_reading::document::Statement;
@@ -14,8 +13,9 @@ const NEAR: usize = 400;
 
 /// True if the words before a place speak of where the arm is singular.
 pub(in super::super) fn speaks_of_singularity(text: &str, at: usize) -> bool {
-    const WORDS: [&str; 13] = [
+    const WORDS: [&str; 14] = [
         "singul",
+        "singol",
         "vanish",
         "determinant",
         "déterminant",
@@ -50,26 +50,30 @@ impl Walk<'_> {
         let is_still = |e: Expr| e.symbols().iter().all(|s| !joints.contains(&(*s).into()));
         let joint = of.as_symbol().filter(|s| joints.contains(&(*s).into()));
         match joint {
-            Some(joint) if value.symbols().is_empty() => {
+            Some(joint) if is_still(value) => {
                 // A rounded angle is where the determinant vanishes as nearly as it is printed.
-                let is_rounded = self.source(span).contains('.');
-                if is_rounded {
+                if self.source(span).contains('.') || self.denies(statement) {
                     return false;
                 }
-                if self.says_singular(statement) {
-                    let Some(determinant) = self.subject.determinant(Part::Any) else { return false };
-                    let there = determinant.substitute(|s| (s == joint).then_some(value));
+                let says = self.says_singular(statement);
+                if !says && !self.may_say_singular(statement) {
+                    return false;
+                }
+                if let Some(there) = self.subject.singular_at(joint, value) {
                     self.singular_there(statement, span, [there, Expr::int(0)]);
+                    if !says {
+                        // It may be a configuration as well.
+                        let spans: Vec<Range<usize>> =
+                            statement.sides.iter().map(|s| s.span.clone()).collect();
+                        self.configuration(&spans, read);
+                    }
                     return true;
                 }
-                let there = || self.subject.singular_at(joint, value);
-                let Some(there) = self.may_say_singular(statement).then(there).flatten() else {
-                    return false;
-                };
+                // Words that only stand near accuse nothing, nor do lengths of which the table has none.
+                let whole = self.subject.determinants().first().copied();
+                let Some(whole) = whole.filter(|_| says && value.symbols().is_empty()) else { return false };
+                let there = whole.substitute(|s| (s == joint).then_some(value));
                 self.singular_there(statement, span, [there, Expr::int(0)]);
-                // It may be a configuration as well.
-                let spans: Vec<Range<usize>> = statement.sides.iter().map(|s| s.span.clone()).collect();
-                self.configuration(&spans, read);
                 true
             }
             None if value.is_zero() && !is_still(of) && !equal(of, value).is_equal() => {
@@ -88,6 +92,14 @@ impl Walk<'_> {
         let pair = Pair { place: None, span: span.clone(), printed: None, value, wanted, also: vec![] };
         let assertion = self.assertion(statement, About::Singularity);
         self.assertions.push(Assertion { pieces: vec![Piece::Pair(pair)], ..assertion });
+    }
+
+    /// True where the words right before a statement deny it: `not for t3 = 0 but for t3 = -b`.
+    fn denies(&self, statement: &Statement) -> bool {
+        const NOT: [&str; 6] = ["not for", "nicht für", "pas pour", "no para", "non per", "niet voor"];
+        let before = self.text.get(..statement.span.start).unwrap_or_default();
+        let before = before.trim_end_matches([' ', '$', '\n']);
+        NOT.iter().any(|n| before.to_lowercase().ends_with(n))
     }
 
     /// True for a statement in a sentence, or a list, that says that the arm is singular there.
@@ -114,7 +126,8 @@ impl Walk<'_> {
         let above = if above.trim_end().ends_with('.') { "" } else { above };
         let behind = self.text.get(end..).unwrap_or_default();
         let behind = behind.split(['\n', '.', ';']).next().unwrap_or_default();
-        let words = [above, own, behind].join(" ").to_lowercase();
+        let lead = self.lead_of_list(statement).unwrap_or_default();
+        let words = [&lead, above, own, behind].join(" ").to_lowercase();
         let is_behind_determinant = self.assertions.last().is_some_and(|a| {
             let said = self.source(&a.span).to_lowercase();
             ["det", "|j"].iter().any(|w| said.contains(w))
@@ -167,6 +180,11 @@ impl Walk<'_> {
 
     /// True for an item of a list whose lead says that the arm is singular: `Two families of singular configurations follow.`
     fn is_in_list_of_singular(&self, statement: &Statement) -> bool {
+        self.lead_of_list(statement).is_some_and(|lead| is_singular(&lead))
+    }
+
+    /// The line above the list in which a statement is an item, in small letters.
+    fn lead_of_list(&self, statement: &Statement) -> Option<String> {
         const MOST: usize = 12;
         let before = self.text.get(..statement.span.start).unwrap_or_default();
         let is_item = |line: &str| {
@@ -178,18 +196,18 @@ impl Walk<'_> {
         };
         let mut lines = before.rsplit('\n').take(MOST);
         if !lines.next().is_some_and(is_item) {
-            return false;
+            return None;
         }
         let is_beside =
             |line: &&str| is_item(line) || line.trim().is_empty() || line.trim_start().starts_with("\\begin");
-        let lead = lines.find(|line| !is_beside(line)).map(str::to_lowercase);
-        lead.is_some_and(|lead| is_singular(&lead))
+        lines.find(|line| !is_beside(line)).map(str::to_lowercase)
     }
 }
 
 /// Words of where the arm is singular.
-const VANISHING: [&str; 13] = [
+const VANISHING: [&str; 14] = [
     "singul",
+    "singol",
     "vanish",
     "degenera",
     "loses rank",
@@ -206,7 +224,7 @@ const VANISHING: [&str; 13] = [
 
 /// True if a sentence says that the arm is singular somewhere.
 fn is_singular(said: &str) -> bool {
-    said.contains("singul") && !is_denied(said)
+    ["singul", "singol"].iter().any(|w| said.contains(w)) && !is_denied(said)
 }
 
 /// True if words say that something is not so, or not there.

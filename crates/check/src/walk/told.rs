@@ -521,7 +521,8 @@ impl Walk<'_> {
 
 /// True for a text that tells a case, not a configuration.
 pub(super) fn is_case(line: &str) -> bool {
-    const CASES: [&str; 31] = [
+    const CASES: [&str; 32] = [
+        "singolar",
         "satisf",
         "erfüll",
         "soddisf",

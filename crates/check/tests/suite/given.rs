@@ -55,6 +55,33 @@ fn where_the_arm_is_singular() {
     let found = read(&with("The arm is singular if θ3 = 0."));
     assert!(found.claims.iter().any(|c| c.about == About::Singularity), "{:?}", found.claims);
     is(&with("The arm is not singular at θ2 = 0."), &[("θ2", NONE)]);
+    is(&with("It is singular not for θ2 = 0 but for θ3 = 0."), &[("θ2", NONE), ("θ3", RIGHT)]);
+    let list =
+        "It vanishes in two cases:\n\n1. θ3 = 0, arm stretched;\n2. a2 c2 + a3 c23 = 0, the tip on the axis.";
+    is(&with(list), &[("θ3", RIGHT), (shoulder, RIGHT)]);
+}
+
+/// Rows that vanish everywhere tell nothing: a wrist moves no point.
+#[test]
+fn where_a_wrist_is_singular() {
+    let wrist = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 0 | -90° |\n\
+                 | 2 | θ2 | 0 | 0 | 90° |\n| 3 | θ3 | 0 | 0 | 0 |\n\n";
+    for (value, standing) in [("0", RIGHT), ("π/2", WRONG)] {
+        is(&format!("{wrist}The wrist is singular for θ2 = {value}.\n"), &[("θ2", standing)]);
+    }
+}
+
+#[test]
+fn a_question_for_joints_gives_a_goal() {
+    let text = |x: &str| {
+        format!(
+            "{NUMBERS}For θ1 = 20° and θ2 = 50°: x = {x}\n\nWhich joint angles go with x = 0.478 and y = 0.419?\n\nθ2 = -50° with θ1 = 62.4°\n"
+        )
+    };
+    let found = read(&text("0.478"));
+    assert_eq!(found.tally().wrong, 0, "{:?}", found.claims);
+    assert_eq!(all(&found, "θ2"), RIGHT);
+    assert_eq!(all(&read(&text("0.300")), "x"), WRONG);
 }
 
 #[test]
@@ -122,6 +149,9 @@ fn points_with_a_letter_and_lengths_of_the_arm() {
     };
     is(&of("-"), &[("x_P", RIGHT), ("cos θ2", RIGHT)]);
     is(&of("+"), &[("cos θ2", WRONG)]);
+    // A wrong component of a point that has a right one is wrong, and what stands behind it is held against the point.
+    let wrong = "Gx = a1 c1 + a2 c12\n\nGy = a1 s1 + a2 c12\n\nInverse:\n\nθ1 = atan2(Gy, Gx) - atan2(a2 s2, a1 + a2 c2)\n";
+    is(&format!("{PLANAR}{wrong}"), &[("Gy", WRONG), ("θ1", RIGHT)]);
     is(&format!("{ELBOW}The reach is rho = a2 c2 + a3 c23.\n"), &[("rho", RIGHT)]);
     // A part of the arm may be meant.
     is(&format!("{ELBOW}The reach is rho = a3 c23.\n"), &[("rho", NONE)]);
