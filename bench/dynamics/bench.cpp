@@ -30,7 +30,7 @@ struct Link {
 
 namespace {
 
-const int STATES = 1024, LANES = 64, ROUNDS = 25, RUNS = 5;
+const int STATES = 1024, ROUNDS = 25, RUNS = 5;
 
 pinocchio::Model model_of(const Link *links, int n)
 {
@@ -84,12 +84,13 @@ struct Entry {
 // States of an arm, one by one and side by side, and where results go.
 template <int N> struct Arm {
     std::vector<double> states, blocks, out;
+    const int lanes;
     pinocchio::Model model;
     pinocchio::Data data;
     std::vector<Eigen::VectorXd> q, v, a;
 
-    Arm(const Link *links, unsigned seed)
-        : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * (3 * N + 1) * N), model(model_of(links, N)), data(model)
+    Arm(const Link *links, unsigned seed, int lanes)
+        : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * (3 * N + 1) * N), lanes(lanes), model(model_of(links, N)), data(model)
     {
         unsigned long long state = seed;
         for (int i = 0; i < STATES; i++) {
@@ -98,7 +99,7 @@ template <int N> struct Arm {
                 const double unit = (double)(state >> 11) / 9007199254740992.0;
                 const double x = (j < N ? 3.1 : 2.0) * (2.0 * unit - 1.0);
                 states[3 * N * i + j] = x;
-                blocks[LANES * (3 * N * (i / LANES) + j) + i % LANES] = x;
+                blocks[lanes * (3 * N * (i / lanes) + j) + i % lanes] = x;
             }
             const double *s = &states[3 * N * i];
             q.push_back(Eigen::Map<const Eigen::VectorXd>(s, N));
@@ -138,10 +139,10 @@ template <int N, class F> void one(Arm<N> &arm, const char *group, const std::st
 
 template <int N, class F> void block(Arm<N> &arm, const char *group, const std::string &name, double limit, F f)
 {
-    entries.push_back({group, name + ", blocks of 64", limit,
+    entries.push_back({group, name + ", blocks of " + std::to_string(arm.lanes), limit,
                        [&arm, f] {
-                           for (int i = 0; i < STATES / LANES; i++) {
-                               f(&arm.blocks[3 * N * LANES * i], &arm.out[0]);
+                           for (int i = 0; i < STATES / arm.lanes; i++) {
+                               f(&arm.blocks[3 * N * arm.lanes * i], &arm.out[0]);
                                keep(arm.out[0]);
                            }
                        },
@@ -188,8 +189,8 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
         LEVEL(arm, N, group, prefix##v4, "generated C, AVX-512", first, second)                                        \
     }
 
-#define ARM(prefix, N, title, L)                                                                                       \
-    static Arm<N> prefix(prefix##_links, N);                                                                           \
+#define ARM(prefix, N, title, L, lanes)                                                                                \
+    static Arm<N> prefix(prefix##_links, N, lanes);                                                                    \
     {                                                                                                                  \
         auto &arm = prefix;                                                                                            \
         double tau[N], inertia[N][N], qdd[N], by[N][3 * N], all[N][3 * N + 1];                                          \
@@ -247,8 +248,8 @@ int main()
 {
     const double ur5_limits[8] = {0.75, 0.16, 0.75, 0.15, 1.6, 0.3, 2.6, 0.5};
     const double panda_limits[8] = {1.4, 0.32, 0, 0, 0, 0, 0, 0};
-    ARM(ur5, 6, "UR5", ur5_limits)
-    ARM(panda, 7, "Panda", panda_limits)
+    ARM(ur5, 6, "UR5", ur5_limits, UR5V3_LANES)
+    ARM(panda, 7, "Panda", panda_limits, PANDAV3_LANES)
     if (!(worst <= 1e-9)) {
         fprintf(stderr, "generated code and Pinocchio differ by %g of the size\n", worst);
         return 1;

@@ -10,6 +10,8 @@ use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::fmt::Write;
 
+/// What a block's function may read and write, in bytes: most processors have a first cache of 32 KiB or 48.
+const FIRST_CACHE: usize = 36 << 10;
 /// The longest line.
 pub(crate) const WIDTH: usize = 100;
 /// Formulas of several lines go on with a sign, further in.
@@ -452,4 +454,12 @@ impl Body {
         list.retain(|line| !line.trim().is_empty());
         self.text.push_str(&lines(&list));
     }
+}
+
+/// Configurations of a block: at most 64, and so few that what the largest function reads and writes stays in the first cache.
+pub(crate) fn lanes(library: &Library, functions: &[Function]) -> usize {
+    let numbers = functions.iter().map(|f| library.variables.len() + f.shape().iter().product::<usize>()).max();
+    let bytes = if library.precision == Precision::Double { 8 } else { 4 };
+    let fits = |lanes: usize| lanes * bytes * numbers.unwrap_or(0) <= FIRST_CACHE;
+    [64, 32].into_iter().find(|&lanes| fits(lanes)).unwrap_or(16)
 }

@@ -1,6 +1,6 @@
 //! C99 that is C++11 too: a header, a source file, and a test with its Makefile.
 //!
-//! A function for one configuration, and one for a block of [`LANES`] with the values of all lanes side by side. The
+//! A function for one configuration, and one for a block of some with the values of all lanes side by side. The
 //! routines for sines, cosines and angles are embedded (`c/*.c`), since a compiler makes vector code of them.
 
 pub(crate) mod solver;
@@ -8,7 +8,7 @@ pub(crate) mod test;
 
 use crate::compiled::{
     Body, EIGHT, Function, Pair, Step, WIDTH, WRAP, about_angles, defaults, file_name, functions, inputs,
-    lines, opening,
+    lanes, lines, opening,
 };
 use crate::names::{Names, brief};
 use crate::order::{for_blocks, is_large};
@@ -19,8 +19,6 @@ use crate::{Attachment, File, Language, Library, Parameter, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt::Write;
 
-/// Configurations of a block.
-const LANES: usize = 64;
 /// Words that the emitted code uses, and macros of the headers it includes.
 pub(crate) const RESERVED: &[&str] = &[
     "q",
@@ -225,12 +223,13 @@ impl Source<'_> {
             (true, Precision::Double) => ", but for angles above 1.6e6, where it calls the C library",
             (true, Precision::Single) => ", but for angles above 6400, where it calls the C library",
         };
+        let lanes = lanes(self.library, &self.functions);
         let strict =
             format!("-D{upper}_STRICT uses no fused multiply-add: the same bits on every machine{huge}.");
         let mut text = block_comment(self.lines().chain(words.iter().map(String::as_str)).chain([
             "",
             &format!(
-                "A block holds {LANES} configurations side by side. Variable j of configuration i stands at"
+                "A block holds {lanes} configurations side by side. Variable j of configuration i stands at"
             ),
             &format!(
                 "q[{upper}_LANES * j + i]; result k, counted row by row, at [{upper}_LANES * k + i]. Blocks"
@@ -247,7 +246,7 @@ impl Source<'_> {
             text,
             "#ifndef {upper}_H\n#define {upper}_H\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
              /* Variables of a configuration. */\n#define {upper}_VARIABLES {}\n\
-             /* Configurations of a block. */\n#define {upper}_LANES {LANES}\n",
+             /* Configurations of a block. */\n#define {upper}_LANES {lanes}\n",
             self.library.variables.len()
         );
         if !self.library.parameters.is_empty() {
