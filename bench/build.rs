@@ -69,6 +69,11 @@ fn rust(out: &Path, source: &Source, level: &str, target: &str) {
 
 fn c(out: &Path, source: &Source, compiler: &str, level: &str, target: &str) {
     let (name, folder) = (source.name, write(out, Language::C, source));
+    // A header says how many configurations a block holds.
+    let header = fs::read_to_string(folder.join(format!("{name}.h"))).expect("a header");
+    let lanes = format!("{}_LANES", name.to_uppercase());
+    let count = header.lines().find_map(|line| line.strip_prefix(&format!("#define {lanes} ")));
+    println!("cargo:rustc-env={lanes}={}", count.expect("a header says its lanes"));
     let own = format!("{name}_{compiler}_{level}");
     let object = out.join(format!("{own}.o"));
     let mut command = Command::new(compiler);

@@ -174,7 +174,7 @@ fn blocks_by_c<const J: usize, const M: usize>(
 ) -> impl Iterator<Item = Entry<'static>> {
     all.into_iter().filter(|c| runs(c.level)).map(move |c| {
         let what = name(&format!("generated C, {}, blocks, {arm}", c.compiler), c.level);
-        entry(group, what, RUNS * LANES, limit(c.level), blocks::<_, J, M>(c, angles()))
+        entry(group, what, RUNS * LANES, limit(c.level), blocks::<_, J, M, LANES>(c, angles()))
     })
 }
 

@@ -458,7 +458,8 @@ impl Body {
 
 /// Configurations of a block: at most 64, and so few that what the largest function reads and writes stays in the first cache.
 pub(crate) fn lanes(library: &Library, functions: &[Function]) -> usize {
-    let numbers = functions.iter().map(|f| library.variables.len() + f.shape().iter().product::<usize>()).max();
+    let numbers =
+        functions.iter().map(|f| library.variables.len() + f.shape().iter().product::<usize>()).max();
     let bytes = if library.precision == Precision::Double { 8 } else { 4 };
     let fits = |lanes: usize| lanes * bytes * numbers.unwrap_or(0) <= FIRST_CACHE;
     [64, 32].into_iter().find(|&lanes| fits(lanes)).unwrap_or(16)
