@@ -160,14 +160,35 @@ impl Subject {
         if !printed.0.iter().flatten().all(is_number) || told.frame.is_some() || told.axes.is_some() {
             return None;
         }
-        let task = self.task(told.part).filter(|t| t.len() == printed.0.len())?;
         let axes = self.ground();
+        if printed.0.len() == 6 && told.points.is_empty() {
+            return Some(self.full_jacobian_in_numbers(printed, axes));
+        }
+        let task = self.task(told.part).filter(|t| t.len() == printed.0.len())?;
         let mut order = [0; 6];
         order.iter_mut().zip(&task).for_each(|(o, &r)| *o = u8::try_from(r).unwrap_or_default());
         let rows = task.len();
         let jacobian =
             Jacobian { body: Reference::Tool, at: None, axes, is_angular_first: false, rows, order };
         Some((self.square_jacobian(told.part)?, jacobian))
+    }
+
+    /// All six rows, linear ones first unless what is the same everywhere stands in print as if angular ones were.
+    fn full_jacobian_in_numbers(&self, printed: &Matrix, axes: Reference) -> (Matrix, Jacobian) {
+        let full = self.geometric_rows(Reference::Tool, axes);
+        let count = |order: &[u8; 6]| {
+            let places = (0..6).flat_map(|r| (0..full[r].len()).map(move |c| (r, c)));
+            let agrees = |&(r, c): &(usize, usize)| {
+                let known = full[usize::from(order[r])][c];
+                known.as_number().is_some() && printed.entry(r, c) == Some(known)
+            };
+            places.filter(agrees).count()
+        };
+        let is_angular_first = count(&FULL[1]) > count(&FULL[0]);
+        let order = FULL[usize::from(is_angular_first)];
+        let row = |k: &u8| full[usize::from(*k)].iter().map(|&e| Some(e)).collect();
+        let jacobian = Jacobian { body: Reference::Tool, at: None, axes, is_angular_first, rows: 6, order };
+        (Matrix(order.iter().map(row).collect()), jacobian)
     }
 
     /// Full Jacobians of the points and along the axes that a name may mean, the usual ones first.

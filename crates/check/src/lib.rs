@@ -231,6 +231,7 @@ pub fn check(
     unjudged.extend(of_dynamics);
     unjudged.extend(givens::unused(text, &plan, &walked, &claims));
     unjudged.sort_by_key(|u| (u.span.start, u.span.end));
+    unjudged.dedup_by(|a, b| a.span == b.span);
     let claims = apart::split(text, claims, &mut causes);
     let mut checked = Checked {
         claims,

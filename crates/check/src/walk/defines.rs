@@ -201,8 +201,9 @@ impl Walk<'_> {
         let shown = is_angle.then(|| sum_in_pose(&self.subject, &places, inverse)).flatten();
         let is_sum = |sum: &Expr| shown.is_some() && denavit_symbolic::equal(value, *sum).is_equal();
         let of_hand = parallel_sum(&self.subject).filter(is_sum);
-        let sibling = self.place_by_sibling(&name, value);
-        let inverse = shown.or_else(|| self.place_of(value)).or(sibling.map(|s| s.1)).unwrap_or(inverse);
+        let place = self.place_of(value);
+        let sibling = self.place_by_sibling(&name, value).filter(|_| place.is_none());
+        let inverse = shown.or(place).or(sibling.map(|s| s.1)).unwrap_or(inverse);
         let meant = sibling.map_or(value, |s| s.0);
         if let Some(wanted) = of_hand {
             // What the name means is seen: the angle of the hand.

@@ -17,6 +17,9 @@ use std::ops::Range;
 
 impl Walk<'_> {
     pub(super) fn scalar(&self, span: &Range<usize>) -> Scalar {
+        // `which joints go with x = 0.3?`
+        let asked = self.text.get(span.clone()).and_then(|s| s.strip_suffix('?')).filter(|s| !s.is_empty());
+        let span = &asked.map_or(span.clone(), |s| span.start..span.start + s.trim_end().len());
         let known = |value: Expr| {
             let syntax = Syntax { kind: SyntaxKind::Name(value), span: 0..span.len() };
             Scalar::Formula(span.clone(), syntax)

@@ -157,3 +157,21 @@ fn points_with_a_letter_and_lengths_of_the_arm() {
     is(&format!("{ELBOW}The reach is rho = a3 c23.\n"), &[("rho", NONE)]);
     is(&format!("{ELBOW}Its determinant:\n\ndet = -a2 a3 s3 (a2 c2 + a3 c23)\n"), &[("det", RIGHT)]);
 }
+
+/// Six rows in numbers are those along the axes of the base, whatever zeros another frame has.
+#[test]
+fn six_rows_in_numbers() {
+    let table = "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | 1 | 0 |\n| 2 | θ2 | 0 | 0.5 | 0 |\n\n\
+                 θ1 = 150°, θ2 = 30°\n\n";
+    // The hand is at (-1.366, 0.5).
+    let rows = ["-0.5 & 0", "-1.366 & -0.5", "0 & 0", "0 & 0", "0 & 0", "1 & 1"];
+    let of = |order: [usize; 6], sign: &str| {
+        let body: Vec<String> =
+            order.iter().map(|&k| rows[k].replacen("-0.5 & 0", &format!("{sign}0.5 & 0"), 1)).collect();
+        format!("{table}$$J = \\begin{{bmatrix}} {} \\end{{bmatrix}}$$\n", body.join(" \\\\ "))
+    };
+    for order in [[0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]] {
+        is(&of(order, "-"), &[("J", RIGHT)]);
+        is(&of(order, ""), &[("J", WRONG)]);
+    }
+}
