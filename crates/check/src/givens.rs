@@ -105,7 +105,8 @@ fn is_let(text: &str, answered: &Answered) -> bool {
 /// True if a number that is judged further down is one at the configuration.
 fn rests(plan: &Plan, walked: &Walked, given: &Answered) -> bool {
     let subject = &plan.subjects[given.subject];
-    let moves = |e: Expr| given.of.symbols().iter().any(|s| e.symbols().contains(s));
+    // One joint of a configuration may have no part in what the others are given for.
+    let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
     let is_there = |at: &Configuration| given.values.iter().any(|&x| at.has(given.of, x, subject));
     walked
         .assertions
