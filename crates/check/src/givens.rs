@@ -8,10 +8,11 @@ use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use super::walk::{Answered, GIVEN, Piece, Target};
 use denavit_symbolic::Expr;
-use std::ops::Range;
 
 /// So many poses before are tried.
-const MOST_POSES: usize = 6;
+const MOST_POSES: usize = 4;
+/// No more groups of numbers are tried: each is searched for.
+const MOST_GROUPS: usize = 40;
 /// Words of which the line of a configuration that is only given has one.
 const LET: [&str; 14] = [
     "given", "let ", "take ", "suppose", "assume", "gegeben", "donné", "dado", "dada", "dato", "data",
@@ -23,7 +24,7 @@ const LET: [&str; 14] = [
 pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
     let given: Vec<Answered> = given(walked).take(MAX_ANSWERS).cloned().collect();
     let mut found = vec![];
-    for group in groups(text, plan, &given) {
+    for group in groups(text, plan, &given).into_iter().take(MOST_GROUPS) {
         let subject = &plan.subjects[group[0].subject];
         let start = group[0].span.start;
         let known = poses(walked, subject, group[0].subject, start);
@@ -49,7 +50,8 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked) -> Vec<Claim> {
 pub(super) fn unused(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim]) -> Vec<Unjudged> {
     let is_judged =
         |a: &Answered| claims.iter().any(|c| c.span.start < a.span.end && a.span.start < c.span.end);
-    let is_idle = |a: &&Answered| !a.is_given || !is_let(text, a) && !rests(plan, walked, a);
+    let numbers = numbers(plan, walked);
+    let is_idle = |a: &&Answered| !a.is_given || !is_let(text, a) && !rests(plan, &numbers, a);
     let idle = walked.answered.iter().filter(|a| !is_judged(a)).filter(is_idle);
     let why = |a: &Answered| if a.is_given { Skipped::Given } else { Skipped::SaysNothing };
     idle.map(|a| Unjudged { span: a.span.clone(), why: why(a) }).collect()
@@ -80,16 +82,8 @@ fn poses(
             at.push(&answer.at);
         }
     }
-    let pose = subject.pose().matrix();
-    let moves = |e: &Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
-    let targets = |at: &Configuration, columns: Range<usize>| -> Option<Vec<Target>> {
-        let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
-        let target = |wanted| Some(Target::new(subject, wanted, at.number(wanted, subject)?, 0.0));
-        entries.filter(moves).map(target).collect()
-    };
-    let columns = if subject.is_for_places() { 3..4 } else { 0..4 };
     let of_configurations =
-        at.into_iter().filter_map(|c| Some((Some(c.clone()), targets(c, columns.clone())?)));
+        at.into_iter().filter_map(|c| Some((Some(c.clone()), Target::of_pose(subject, c)?)));
     let goal = walked.goals.iter().rev().find(|g| g.subject == number && g.end <= start);
     goal.into_iter().map(|g| (None, g.targets.clone())).chain(of_configurations).collect()
 }
@@ -102,16 +96,36 @@ fn is_let(text: &str, answered: &Answered) -> bool {
     GIVEN.iter().any(|w| begins.starts_with(w)) || LET.iter().any(|w| line.contains(w))
 }
 
-/// True if a number that is judged further down is one at the configuration.
-fn rests(plan: &Plan, walked: &Walked, given: &Answered) -> bool {
+/// A number that is judged: where it stands, of which robot, and at which configuration.
+type Judged<'a> = (usize, usize, &'a Configuration);
+
+/// The numbers for what joints move, in the order of the text, one a configuration.
+fn numbers<'a>(plan: &Plan, walked: &'a Walked) -> Vec<Judged<'a>> {
+    let mut found: Vec<Judged> = vec![];
+    for assertion in &walked.assertions {
+        let subject = &plan.subjects[assertion.subject];
+        let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+        let first = assertion.pieces.iter().find_map(|p| match p {
+            Piece::Number { answer, .. } if moves(answer.wanted) => Some(&answer.at),
+            _ => None,
+        });
+        let Some(at) = first else { continue };
+        // Numbers one behind the other stand at the same configuration.
+        match found.last_mut() {
+            Some(last) if last.1 == assertion.subject && last.2.present() == at.present() => {
+                last.0 = assertion.span.start
+            }
+            _ => found.push((assertion.span.start, assertion.subject, at)),
+        }
+    }
+    found
+}
+
+/// True if a number that is judged further down is one at the configuration: one joint of it may have no part in what the others are
+/// given for.
+fn rests(plan: &Plan, numbers: &[Judged<'_>], given: &Answered) -> bool {
     let subject = &plan.subjects[given.subject];
-    // One joint of a configuration may have no part in what the others are given for.
-    let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
     let is_there = |at: &Configuration| given.values.iter().any(|&x| at.has(given.of, x, subject));
-    walked
-        .assertions
-        .iter()
-        .filter(|a| a.subject == given.subject && a.span.start >= given.span.end)
-        .flat_map(|a| &a.pieces)
-        .any(|p| matches!(p, Piece::Number { answer, .. } if moves(answer.wanted) && is_there(&answer.at)))
+    let behind = numbers.iter().rev().take_while(|n| n.0 >= given.span.end);
+    behind.into_iter().any(|n| n.1 == given.subject && is_there(n.2))
 }

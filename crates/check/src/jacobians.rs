@@ -4,6 +4,7 @@
 use super::facts::Jacobian;
 use super::matrix::Matrix;
 use super::names::Name;
+use super::numbers::Configuration;
 use super::subject::Subject;
 use denavit::description::JointKind;
 use denavit::forward::Reference;
@@ -47,7 +48,12 @@ type View = (Reference, Option<usize>, Reference, Vec<Vec<Expr>>);
 
 impl Subject {
     /// Of the Jacobians that people print, the one that agrees with a matrix in most entries, its rows in any order.
-    pub fn nearest_jacobian(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
+    pub fn nearest_jacobian(
+        &self,
+        printed: &Matrix,
+        told: &Told,
+        at: &Configuration,
+    ) -> Option<(Matrix, Jacobian)> {
         let (rows, columns) = printed.shape()?;
         if (2..self.joints().len()).contains(&columns) {
             return self.jacobian_of_first_joints(printed);
@@ -55,7 +61,7 @@ impl Subject {
         if rows > 6 || columns != self.joints().len() {
             return None;
         }
-        if let Some(found) = self.jacobian_in_numbers(printed, told) {
+        if let Some(found) = self.jacobian_in_numbers(printed, told, at) {
             return Some(found);
         }
         let mut points = Points::new(7);
@@ -155,14 +161,19 @@ impl Subject {
     }
 
     /// Numbers agree with no formula: they are those of the Jacobian that the arm has by nature, if it has as many rows.
-    fn jacobian_in_numbers(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
+    fn jacobian_in_numbers(
+        &self,
+        printed: &Matrix,
+        told: &Told,
+        at: &Configuration,
+    ) -> Option<(Matrix, Jacobian)> {
         let is_number = |e: &Option<Expr>| e.is_some_and(|e| e.symbols().is_empty());
         if !printed.0.iter().flatten().all(is_number) || told.frame.is_some() || told.axes.is_some() {
             return None;
         }
         let axes = self.ground();
-        if printed.0.len() == 6 && told.points.is_empty() {
-            return Some(self.full_jacobian_in_numbers(printed, axes));
+        if printed.0.len() == 6 {
+            return self.full_jacobian_in_numbers(printed, told, at);
         }
         let task = self.task(told.part).filter(|t| t.len() == printed.0.len())?;
         let mut order = [0; 6];
@@ -173,22 +184,41 @@ impl Subject {
         Some((self.square_jacobian(told.part)?, jacobian))
     }
 
-    /// All six rows, linear ones first unless what is the same everywhere stands in print as if angular ones were.
-    fn full_jacobian_in_numbers(&self, printed: &Matrix, axes: Reference) -> (Matrix, Jacobian) {
-        let full = self.geometric_rows(Reference::Tool, axes);
-        let count = |order: &[u8; 6]| {
-            let places = (0..6).flat_map(|r| (0..full[r].len()).map(move |c| (r, c)));
-            let agrees = |&(r, c): &(usize, usize)| {
-                let known = full[usize::from(order[r])][c];
-                known.as_number().is_some() && printed.entry(r, c) == Some(known)
-            };
-            places.filter(agrees).count()
-        };
-        let is_angular_first = count(&FULL[1]) > count(&FULL[0]);
-        let order = FULL[usize::from(is_angular_first)];
-        let row = |k: &u8| full[usize::from(*k)].iter().map(|&e| Some(e)).collect();
-        let jacobian = Jacobian { body: Reference::Tool, at: None, axes, is_angular_first, rows: 6, order };
-        (Matrix(order.iter().map(row).collect()), jacobian)
+    /// All six rows, of the point and along the axes with which most numbers agree at the configuration, those of the hand along
+    /// the axes of the base before others.
+    fn full_jacobian_in_numbers(
+        &self,
+        printed: &Matrix,
+        told: &Told,
+        at: &Configuration,
+    ) -> Option<(Matrix, Jacobian)> {
+        /// Coarser numbers tell nothing.
+        const NEAR: f64 = 5e-3;
+        let numbers: Vec<Vec<f64>> = printed
+            .0
+            .iter()
+            .map(|row| {
+                row.iter().map(|e| e.and_then(|e| e.eval(|_| None).ok()).unwrap_or(f64::NAN)).collect()
+            })
+            .collect();
+        let mut best: Option<(usize, Jacobian, Matrix)> = None;
+        for (body, point, axes, full) in self.views(told) {
+            let own: Vec<Vec<Option<f64>>> =
+                full.iter().map(|row| row.iter().map(|&e| at.number(e, self)).collect()).collect();
+            for (order, is_angular_first) in FULL.into_iter().zip([false, true]) {
+                let agrees = |r: usize, c: usize| {
+                    let x = own[usize::from(order[r])][c];
+                    x.is_some_and(|x| (x - numbers[r][c]).abs() <= NEAR * (1.0 + x.abs()))
+                };
+                let total = (0..6).map(|r| (0..numbers[r].len()).filter(|&c| agrees(r, c)).count()).sum();
+                if best.as_ref().is_none_or(|b| total > b.0) {
+                    let jacobian = Jacobian { body, at: point, axes, is_angular_first, rows: 6, order };
+                    let row = |k: &u8| full[usize::from(*k)].iter().map(|&e| Some(e)).collect();
+                    best = Some((total, jacobian, Matrix(order.iter().map(row).collect())));
+                }
+            }
+        }
+        best.map(|(_, jacobian, matrix)| (matrix, jacobian))
     }
 
     /// Full Jacobians of the points and along the axes that a name may mean, the usual ones first.
@@ -267,11 +297,12 @@ impl Subject {
         self.determinants().into_iter().map(at).find(|e| equal(*e, Expr::int(0)).is_equal())
     }
 
-    /// The determinants of the whole Jacobian, of its linear and of its angular rows, but for those that vanish everywhere.
+    /// The determinants of the whole Jacobian and of its linear rows, but for those that vanish everywhere; that of the angular
+    /// rows where these are none, as of a wrist.
     pub fn determinants(&self) -> Vec<Expr> {
-        let all =
-            [Part::Any, Part::Linear, Part::Angular].into_iter().filter_map(|part| self.determinant(part));
-        all.filter(|d| !equal(*d, Expr::int(0)).is_equal()).collect()
+        let found = |part| self.determinant(part).filter(|d| !equal(*d, Expr::int(0)).is_equal());
+        let of_places: Vec<Expr> = [Part::Any, Part::Linear].into_iter().filter_map(found).collect();
+        if of_places.is_empty() { found(Part::Angular).into_iter().collect() } else { of_places }
     }
 
     /// A formula that is zero only where the arm is singular, as it divides the determinant: the formula times what does not

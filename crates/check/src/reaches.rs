@@ -1,7 +1,6 @@
 //! Lengths of the whole arm under names of the document's own, which nothing uses: what they are is seen from their values.
 
 use super::facts::About;
-use super::jacobians::Part;
 use super::lexis::read;
 use super::outcome::{Claim, Entry, Finding};
 use super::plan::{Plan, Walked};
@@ -27,7 +26,7 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
         if open.is_empty() {
             continue;
         }
-        let known = lengths(subject);
+        let known = lengths(subject, text);
         let mut points = Points::new(43);
         for defined in open {
             // A formula of the pose is what it is told to be, whatever that is.
@@ -62,8 +61,8 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
 }
 
 /// The distance of the hand from the first axis, where that turns the arm about the upright, its square, that from the origin, and
-/// determinants.
-fn lengths(subject: &Subject) -> Vec<Expr> {
+/// determinants where the text speaks of them.
+fn lengths(subject: &Subject, text: &str) -> Vec<Expr> {
     let [x, y, z] = subject.pose().translation.0;
     let around = x.powi(2) + y.powi(2);
     let mut found = vec![around, around + z.powi(2)];
@@ -73,8 +72,9 @@ fn lengths(subject: &Subject) -> Vec<Expr> {
             found.push(c * x + s * y);
         }
     }
-    let determinants = [Part::Any, Part::Linear].into_iter().filter_map(|part| subject.determinant(part));
-    found.extend(determinants.flat_map(|d| [d, -d]));
+    if ["det", "Det"].iter().any(|w| text.contains(w)) {
+        found.extend(subject.determinants());
+    }
     found.retain(|e| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into())));
     found
 }

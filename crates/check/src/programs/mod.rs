@@ -444,7 +444,8 @@ impl Program<'_> {
                     _ => Part::Any,
                 };
                 let told = Told { part, ..Told::default() };
-                let (matrix, jacobian) = self.subject.nearest_jacobian(&values, &told)?;
+                let (matrix, jacobian) =
+                    self.subject.nearest_jacobian(&values, &told, &Configuration::default())?;
                 (matrix, Meaning::Jacobian(jacobian))
             }
             // That of the joints which the function takes.

@@ -10,7 +10,7 @@ use denavit_symbolic::vocabulary::plain_name;
 use std::ops::Range;
 
 /// Words so many letters before a statement speak of it.
-const NEAR: usize = 400;
+pub(super) const NEAR: usize = 400;
 
 impl Walk<'_> {
     /// A joint's value in a sentence that tells a case.

@@ -69,7 +69,7 @@ impl Walk<'_> {
         }
         let mut told = told.unwrap_or_default();
         told.points.extend(frames_told(self.paragraph_before(statement)));
-        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told)?;
+        let (matrix, jacobian) = self.subject.nearest_jacobian(&printed, &told, &self.at)?;
         Some(Reference { matrix, about: Some(Meaning::Jacobian(jacobian)) })
     }
 

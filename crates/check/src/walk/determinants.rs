@@ -1,6 +1,7 @@
 //! Determinants of Jacobians: of a printed one, of rows or joints that words name, or of the one that the arm has by nature.
 
 use super::Walk;
+use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::names::Name;
 use denavit::forward::Reference;
@@ -28,8 +29,8 @@ impl Walk<'_> {
             .strip_suffix('J')
             .filter(|s| s.len() == 1 && s.starts_with(|c: char| c.is_ascii_digit()))
             .map_or(inner, |_| "J");
-        // `det = …`: that of the Jacobian of which the text speaks.
-        let inner = if inner.is_empty() { "J" } else { inner };
+        // `det = …`: that of the matrix that stands before, if it is a Jacobian.
+        let inner = if inner.is_empty() && self.is_last_a_jacobian() { "J" } else { inner };
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
         if name.base == "J" && name.sub == "11" && self.lexis.defined(&name).is_none() {
@@ -62,6 +63,15 @@ impl Walk<'_> {
         let is_open = printed.is_none() && !is_numeric && self.is_printed(&name, span.start);
         let by_nature = || if is_open { None } else { self.subject.determinant(told.part) };
         printed.and_then(|m| m.determinant()).or_else(by_nature)
+    }
+
+    /// True if no other matrix than a Jacobian was printed last.
+    fn is_last_a_jacobian(&self) -> bool {
+        let matrices = self.assertions.iter().rev().filter_map(|a| match &a.about {
+            About::Matrix(meaning) => Some(meaning),
+            _ => None,
+        });
+        matrices.into_iter().next().is_none_or(|m| matches!(m, Meaning::Jacobian(_)))
     }
 
     /// That of the first three joints and the point in which the last three axes meet: the upper left block `J_{11}`.

@@ -27,6 +27,17 @@ impl Target {
         let is_length = subject.pose().translation.0.contains(&wanted);
         Target { wanted, printed, half, is_length }
     }
+
+    /// What of the pose tells the joints, as it is at a configuration: the place of the hand, or all of the pose where that does
+    /// not. Nothing where a value is not known.
+    pub fn of_pose(subject: &Subject, at: &Configuration) -> Option<Vec<Self>> {
+        let pose = subject.pose().matrix();
+        let columns = if subject.is_for_places() { 3..4 } else { 0..4 };
+        let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
+        let moves = |e: &Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
+        let target = |wanted| Some(Target::new(subject, wanted, at.number(wanted, subject)?, 0.0));
+        entries.filter(moves).map(target).collect()
+    }
 }
 
 /// A joint, or a sum of joints, and the numbers that a document gives it.
@@ -324,15 +335,7 @@ impl Walk<'_> {
         if !is_other {
             at.recall_joints();
         }
-        let pose = self.subject.pose().matrix();
-        let columns = if self.subject.is_for_places() { 3..4 } else { 0..4 };
-        let entries = pose.iter().take(3).flat_map(|row| row[columns.clone()].iter().copied());
-        let moves = |e: &Expr| e.symbols().iter().any(|s| self.subject.joints().contains(&(*s).into()));
-        let target = |wanted: Expr| {
-            let printed = at.number(wanted, &self.subject)?;
-            Some(Target::new(&self.subject, wanted, printed, 0.0))
-        };
-        entries.filter(moves).map(target).collect::<Option<Vec<_>>>().unwrap_or_default()
+        Target::of_pose(&self.subject, &at).unwrap_or_default()
     }
 
     /// Keeps a number for an entry of the pose that is to be reached: `x = 516.8 mm` above inverse kinematics.

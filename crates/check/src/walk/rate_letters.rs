@@ -97,13 +97,12 @@ impl Walk<'_> {
         // Each other joint stands still, or does not move the hand that way.
         let is_alone = self.speaks_of_some_alone(statement);
         choices.retain(|c| is_alone || (0..rates.len()).all(|j| c.contains(&j) || wanted_of[j] == none));
-        let by_number = |c: &&Vec<usize>| {
-            letters.iter().zip(c.iter()).all(|(s, j)| s.name().ends_with(&(j + 1).to_string()))
-        };
-        let choice = match &choices[..] {
-            [only] => only,
-            several => several.iter().find(by_number)?,
-        };
+        // `u2` is no other joint's: a formula that needs it as that has them exchanged.
+        let number = |s: &Symbol| s.name().chars().next_back().and_then(|c| c.to_digit(10));
+        choices.retain(|c| {
+            letters.iter().zip(c).all(|(s, j)| is_rate(s) || number(s).is_none_or(|k| k as usize == j + 1))
+        });
+        let [choice] = &choices[..] else { return None };
         let found = letters.iter().zip(choice).filter(|(s, _)| !is_rate(s));
         let found: Vec<(Symbol, Expr)> = found.map(|(s, &j)| (*s, rates[j])).collect();
         let renamed = printed.substitute(|s| found.iter().find(|f| f.0 == s).map(|f| f.1));

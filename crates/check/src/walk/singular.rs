@@ -1,5 +1,6 @@
 //! Where the arm is said to be singular: the value of a joint, a sine, or a formula that is zero there.
 
+use super::cases::NEAR;
 use super::{Assertion, Pair, Piece, Scalar, Walk};
 use crate::facts::About;
 use crate::note::Unreadable;
@@ -8,31 +9,12 @@ use denavit_reading::document::Statement;
 use denavit_symbolic::{Expr, Node, Symbol, equal};
 use std::ops::Range;
 
-/// Words so many letters before a statement speak of it.
-const NEAR: usize = 400;
-
 /// True if the words before a place speak of where the arm is singular.
 pub(in super::super) fn speaks_of_singularity(text: &str, at: usize) -> bool {
-    const WORDS: [&str; 14] = [
-        "singul",
-        "singol",
-        "vanish",
-        "determinant",
-        "déterminant",
-        "det j",
-        "det(",
-        "\\det",
-        "rank",
-        "rang ",
-        "annul",
-        "se anula",
-        "degenera",
-        "verschwind",
-    ];
     let before = text.get(..at).unwrap_or_default();
     let start = before.char_indices().rev().take(NEAR).last().map_or(0, |c| c.0);
     let before = before[start..].to_lowercase();
-    WORDS.iter().any(|w| before.contains(w)) && !is_denied(&before)
+    VANISHING.iter().chain(&DETERMINANTS).any(|w| before.contains(w)) && !is_denied(&before)
 }
 
 /// A determinant speaks of what stands so many bytes behind it.
@@ -96,10 +78,13 @@ impl Walk<'_> {
 
     /// True where the words right before a statement deny it: `not for t3 = 0 but for t3 = -b`.
     fn denies(&self, statement: &Statement) -> bool {
+        const FEW: usize = 16;
         const NOT: [&str; 6] = ["not for", "nicht für", "pas pour", "no para", "non per", "niet voor"];
         let before = self.text.get(..statement.span.start).unwrap_or_default();
         let before = before.trim_end_matches([' ', '$', '\n']);
-        NOT.iter().any(|n| before.to_lowercase().ends_with(n))
+        let start = before.char_indices().rev().take(FEW).last().map_or(0, |c| c.0);
+        let words = before[start..].to_lowercase();
+        NOT.iter().any(|n| words.ends_with(n))
     }
 
     /// True for a statement in a sentence, or a list, that says that the arm is singular there.
@@ -166,13 +151,7 @@ impl Walk<'_> {
         let is_told = speaks_of_singularity(self.text, statement.span.start);
         let singular = self.subject.singular_at(joint, there).filter(|_| is_told);
         match singular {
-            Some(value) => {
-                let (place, span, wanted, also) = (None, span.clone(), Expr::int(0), vec![]);
-                let pair = Pair { place, span, printed: None, value, wanted, also };
-                let mut assertion = self.assertion(statement, About::Singularity);
-                assertion.pieces = vec![Piece::Pair(pair)];
-                self.assertions.push(assertion);
-            }
+            Some(value) => self.singular_there(statement, span, [value, Expr::int(0)]),
             None => self.skipped.push((statement.span.clone(), Unreadable::NoConfiguration)),
         }
         true
@@ -205,13 +184,11 @@ impl Walk<'_> {
 }
 
 /// Words of where the arm is singular.
-const VANISHING: [&str; 14] = [
+const VANISHING: [&str; 13] = [
     "singul",
     "singol",
     "vanish",
     "degenera",
-    "loses rank",
-    "lose rank",
     "loses a direction",
     "lose a direction",
     "verschwind",
@@ -220,7 +197,10 @@ const VANISHING: [&str; 14] = [
     "si annulla",
     "rang ",
     "rank ",
+    "rank\n",
 ];
+/// Words of determinants, which vanish there.
+const DETERMINANTS: [&str; 5] = ["determinant", "déterminant", "det j", "det(", "\\det"];
 
 /// True if a sentence says that the arm is singular somewhere.
 fn is_singular(said: &str) -> bool {

@@ -2,6 +2,7 @@
 
 use super::told::List;
 use super::{Scalar, Walk};
+use denavit::description::JointKind;
 use denavit_symbolic::Expr;
 
 /// Units of rates.
@@ -48,19 +49,25 @@ impl Walk<'_> {
         if !UNITS.iter().any(|u| line.contains(u)) || LIMITS.iter().any(|w| lower.contains(w)) {
             return;
         }
-        let n = self.subject.joints().len();
+        let kinds: Vec<JointKind> = self.subject.description.variables().iter().map(|v| v.kind).collect();
+        let n = kinds.len();
+        // `0.5 m/s` is none of a joint that turns.
+        let fits = |kind: JointKind, unit: &str| unit.ends_with("m/s") == (kind == JointKind::Prismatic);
         for run in runs(line) {
             // Numbers in a row share the unit of the last.
             let Some(last) = run.last().and_then(|q| q.unit) else { continue };
             let text = |q: &Quantity| format!("{} {}", q.number, q.unit.unwrap_or(last));
             let values: Vec<String> = run.iter().map(text).collect();
             let values: Vec<&str> = values.iter().map(String::as_str).collect();
+            let units: Vec<&str> = run.iter().map(|q| q.unit.unwrap_or(last)).collect();
             if values.len() == n && n > 1 {
-                self.assign_list(List::Rates, &values);
+                if kinds.iter().zip(&units).all(|(kind, unit)| fits(*kind, unit)) {
+                    self.assign_list(List::Rates, &values);
+                }
                 continue;
             }
             let alone = ALONE.iter().any(|w| lower.contains(w));
-            let joint = joint_named(&lower).filter(|k| (1..=n).contains(k));
+            let joint = joint_named(&lower).filter(|k| (1..=n).contains(k) && fits(kinds[k - 1], last));
             if let (true, [value], Some(joint)) = (alone, &values[..], joint) {
                 let mut all = vec!["0"; n];
                 all[joint - 1] = value;
