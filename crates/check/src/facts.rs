@@ -333,6 +333,8 @@ impl Placement {
 /// A meaning of a name that is not the first one.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Sense {
+    /// Letters stand for the rates of joints: `u_1`, `θ_1` and so on, each letter before its joint.
+    Rates(Vec<[String; 2]>),
     /// A number behind `T` is that of a link, not of a frame in the base.
     LinkAlone,
     /// The document's own transforms of links, whose product is the robot's.

@@ -29,7 +29,7 @@ pub(super) use points::points;
 pub(super) use scalars::is_measured;
 pub(super) use singular::speaks_of_singularity;
 
-use super::facts::{About, Meaning, Remark};
+use super::facts::{About, Meaning, Remark, Sense};
 use super::habits::{Habits, Places};
 use super::lexis::{Lexis, read};
 use super::matrix::Matrix;
@@ -167,6 +167,8 @@ pub(super) struct Walk<'a> {
     pub taken: Vec<Range<usize>>,
     /// Numbers that joints are said to have where a pose is given.
     pub answered: Vec<Answered>,
+    /// The velocity that told which letters are rates, and how they are read.
+    rates_told: Option<(Range<usize>, Sense)>,
     /// Velocities in letters of which it is not known yet which joint's rates they are.
     waiting: Vec<rate_letters::Waiting>,
     /// Components of the velocity for which joint rates are asked, by their rows.
@@ -254,6 +256,7 @@ impl<'a> Walk<'a> {
             sines: vec![],
             taken: vec![],
             answered: vec![],
+            rates_told: None,
             waiting: vec![],
             sought: BTreeMap::new(),
             goal: vec![],
@@ -425,7 +428,12 @@ impl<'a> Walk<'a> {
             name: self.claim_name(statement),
             about,
             pieces: vec![],
-            remarks: vec![],
+            remarks: self
+                .rates_told
+                .iter()
+                .filter(|t| t.0 == statement.span)
+                .map(|t| Remark::ReadAs(t.1.clone()))
+                .collect(),
             subject: self.number,
             whole: None,
             names: None,

@@ -2,6 +2,7 @@
 //! velocity that is right with them; from then on, and in what stands before, they are these.
 
 use super::{Scalar, Walk};
+use crate::facts::Sense;
 use crate::lexis::read;
 use denavit_reading::document::Statement;
 use denavit_reading::slip::Points;
@@ -33,6 +34,13 @@ impl Walk<'_> {
             }
             return false;
         };
+        let variables = self.subject.description.variables();
+        let joint = |rate: &Expr| self.subject.rates().iter().position(|r| r == rate);
+        let named = |(letter, rate): &(Symbol, Expr)| {
+            Some([letter.name().to_string(), variables[joint(rate)?].symbol.name().to_string()])
+        };
+        let read_as = found.iter().filter_map(named).collect();
+        self.rates_told = Some((statement.span.clone(), Sense::Rates(read_as)));
         for (letter, rate) in found {
             self.lexis.define(&letter.name(), rate);
         }

@@ -1,7 +1,7 @@
 //! What words and numbers around formulas give: where the arm is singular, joints in numbers, rates and loads in words, letters of
 //! rates, points with a letter.
 
-use denavit_check::{About, CheckOptions, Checked, Skipped, Standing, check};
+use denavit_check::{About, CheckOptions, Checked, Remark, Sense, Skipped, Standing, check};
 use denavit_reading::document::Format;
 
 fn read(text: &str) -> Checked {
@@ -112,6 +112,9 @@ fn rates_in_words() {
     }
     let alone = "With 2 rad/s on axis 2 alone:";
     is(&format!("{at}{alone}\n\nvx = -0.564 m/s\n"), &[("vx", RIGHT)]);
+    // What moves so many metres is no joint that turns.
+    let of_hand = "The hand moves at 0.5 m/s and -0.2 m/s.";
+    is(&format!("{at}{of_hand}\n\nvx = -0.153 m/s\n"), &[("vx", &[Standing::Undecided])]);
     // Limits are no motion.
     let limits = "The limits are 0.5 rad/s and 0.2 rad/s.";
     is(&format!("{at}{limits}\n\nvx = -0.153 m/s\n"), &[("vx", &[Standing::Undecided])]);
@@ -136,8 +139,17 @@ fn letters_of_rates_are_seen_from_a_velocity() {
         is(&format!("{PLANAR}{right}\n\n{vy}\n"), &[("vx", RIGHT), ("vy", standing)]);
         is(&format!("{PLANAR}{vy}\n\n{right}\n"), &[("vx", RIGHT), ("vy", standing)]);
     }
-    // One that is right with no letters tells nothing.
+    // Letters with numbers are those of their joints: exchanged ones are not taken for the others.
     let unread: &[Standing] = &[Standing::Unreadable];
+    is(&format!("{PLANAR}vx = -(a1 s1 + a2 s12) k2 - a2 s12 k1\n"), &[("vx", unread)]);
+    is(&format!("{PLANAR}vx = -(a1 s1 + a2 s12) k1 - a2 s12 k2\n"), &[("vx", RIGHT)]);
+    // How they are read is said.
+    let found = read(&format!("{PLANAR}{right}\n"));
+    assert!(
+        found.claims[0].remarks.iter().any(|r| matches!(r, Remark::ReadAs(Sense::Rates(_)))),
+        "{found:?}"
+    );
+    // One that is right with no letters tells nothing.
     is(&format!("{PLANAR}vx = -(a1 s1 - a2 s12) A - a2 s12 B\n"), &[("vx", unread)]);
 }
 
@@ -155,6 +167,10 @@ fn points_with_a_letter_and_lengths_of_the_arm() {
     is(&format!("{ELBOW}The reach is rho = a2 c2 + a3 c23.\n"), &[("rho", RIGHT)]);
     // A part of the arm may be meant.
     is(&format!("{ELBOW}The reach is rho = a3 c23.\n"), &[("rho", NONE)]);
+    // A name may be that of a determinant with its sign, not with the other.
+    let named = |sign: &str| format!("{PLANAR}The determinant is D = {sign}a1 a2 s2.\n");
+    is(&named(""), &[("D", RIGHT)]);
+    is(&named("-"), &[("D", NONE)]);
     is(&format!("{ELBOW}Its determinant:\n\ndet = -a2 a3 s3 (a2 c2 + a3 c23)\n"), &[("det", RIGHT)]);
 }
 
@@ -170,6 +186,9 @@ fn six_rows_in_numbers() {
             order.iter().map(|&k| rows[k].replacen("-0.5 & 0", &format!("{sign}0.5 & 0"), 1)).collect();
         format!("{table}$$J = \\begin{{bmatrix}} {} \\end{{bmatrix}}$$\n", body.join(" \\\\ "))
     };
+    // Along the axes of the hand, where all of them are so.
+    let hand = "$$J = \\begin{bmatrix} 0.5 & 0 \\\\ 1.366 & 0.5 \\\\ 0 & 0 \\\\ 0 & 0 \\\\ 0 & 0 \\\\ 1 & 1 \\end{bmatrix}$$\n";
+    is(&format!("{}{hand}", table.replace("150", "0")), &[("J", RIGHT)]);
     for order in [[0, 1, 2, 3, 4, 5], [3, 4, 5, 0, 1, 2]] {
         is(&of(order, "-"), &[("J", RIGHT)]);
         is(&of(order, ""), &[("J", WRONG)]);

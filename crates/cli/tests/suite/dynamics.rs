@@ -380,7 +380,8 @@ fn paths_keep_torque_limits() {
         let output = of(torque);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         let path: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
-        assert_eq!(path["timing"], "time-optimal within velocity and torque limits");
+        // The first joint has viscous friction.
+        assert_eq!(path["timing"], "fast, within velocity and torque limits");
         path["duration"].as_f64().unwrap()
     };
     assert!(duration("200 N m") < 0.9 * duration("60,20"), "{} {}", duration("200 N m"), duration("60,20"));

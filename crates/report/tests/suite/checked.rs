@@ -328,6 +328,7 @@ fn what_is_not_read() {
         both(&|w| w.skipped(&why));
     }
     for sense in [
+        Sense::Rates(vec![["A".into(), "q1".into()]]),
         Sense::LinkAlone,
         Sense::IndicesExchanged,
         Sense::Helper,

@@ -469,8 +469,8 @@ fn motions_and_axes() {
     let laws = [
         TimingLaw::Still,
         TimingLaw::TimeOptimal,
-        TimingLaw::WithinTorques { accelerations: true },
-        TimingLaw::WithinTorques { accelerations: false },
+        TimingLaw::WithinTorques { accelerations: true, fastest: true },
+        TimingLaw::WithinTorques { accelerations: false, fastest: false },
         TimingLaw::JerkLimited,
         TimingLaw::WithinJerksAndTorques { accelerations: true },
         TimingLaw::WithinJerksAndTorques { accelerations: false },

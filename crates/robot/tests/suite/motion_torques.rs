@@ -108,7 +108,7 @@ fn an_arm_that_cannot_carry_itself_between_grid_points_is_refused() {
     assert!(matches!(time(7.0), Err(MotionError::Torque { joint: 0, s }) if s > 0.0), "{:?}", time(7.0));
 }
 
-/// Nothing but torques bounds accelerations:
+/// What is called time-optimal: with viscous friction, with which speeds are searched for, nothing is. Nothing but torques bounds accelerations:
 /// a light block takes as short as its mass says.
 #[test]
 fn timings_within_torques_say_what_they_are() {
@@ -129,9 +129,10 @@ fn timings_within_torques_say_what_they_are() {
         let planned = Planned::new(&d, &robot, wish, &known, &PlanOptions::default()).unwrap();
         (planned.timing.by, planned.trajectory.duration())
     };
-    let within = |accelerations| TimingLaw::WithinTorques { accelerations };
-    assert_eq!(law("", 3.0, None).0, within(false));
-    assert_eq!(law("viscous = 1", 3.0, Some(vec![1.0])).0, within(true));
+    let within = |accelerations, fastest| TimingLaw::WithinTorques { accelerations, fastest };
+    assert_eq!(law("", 3.0, None).0, within(false, true));
+    assert_eq!(law("", 3.0, Some(vec![1.0])).0, within(true, true));
+    assert_eq!(law("viscous = 1", 3.0, Some(vec![1.0])).0, within(true, false));
     // 6 N on 6 mg: 10⁶ m/s², and 2 ms over a metre.
     let light = law("", 6e-6, None).1;
     assert!((light - 2e-3).abs() < 1e-6, "{light}");

@@ -144,6 +144,11 @@ impl Check for English {
 
     fn sense(&self, sense: &Sense) -> String {
         match sense {
+            Sense::Rates(letters) => {
+                let named =
+                    letters.iter().map(|[letter, joint]| format!("{letter} is read as the rate of {joint}"));
+                return named.collect::<Vec<_>>().join(", ");
+            }
             Sense::LinkAlone => "read as the transform of a link alone, not as a frame in the base",
             Sense::OwnLinks => "read as the document defines them: only their product is the robot's",
             Sense::VelocitiesOfJacobian => {

@@ -43,10 +43,11 @@ impl Motion for English {
         let words = match timing.by {
             TimingLaw::Still => "it does not start".into(),
             TimingLaw::TimeOptimal => "time-optimal within velocity and acceleration limits".into(),
-            TimingLaw::WithinTorques { accelerations } => {
+            TimingLaw::WithinTorques { accelerations, fastest } => {
+                let how = if fastest { "time-optimal" } else { "fast," };
                 let what =
                     if accelerations { "velocity, acceleration and torque" } else { "velocity and torque" };
-                format!("time-optimal within {what} limits")
+                format!("{how} within {what} limits")
             }
             TimingLaw::JerkLimited => "fast, within velocity, acceleration and jerk limits".into(),
             TimingLaw::WithinJerksAndTorques { accelerations } => {

@@ -158,6 +158,12 @@ impl Check for French {
 
     fn sense(&self, sense: &Sense) -> String {
         printed(match sense {
+            Sense::Rates(letters) => {
+                let named = letters
+                    .iter()
+                    .map(|[letter, joint]| format!("{letter} est lu comme la vitesse de {joint}"));
+                return named.collect::<Vec<_>>().join(", ");
+            }
             Sense::LinkAlone => {
                 "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
             }

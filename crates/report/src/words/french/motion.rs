@@ -47,9 +47,10 @@ impl Motion for French {
             TimingLaw::TimeOptimal => {
                 say!("en temps minimal dans les limites de vitesse et d'accélération")
             }
-            TimingLaw::WithinTorques { accelerations } => {
+            TimingLaw::WithinTorques { accelerations, fastest } => {
+                let how = if fastest { "en temps minimal" } else { "rapide," };
                 let what = if accelerations { "de vitesse, d'accélération" } else { "de vitesse" };
-                say!("en temps minimal dans les limites {what} et de couple")
+                say!("{how} dans les limites {what} et de couple")
             }
             TimingLaw::JerkLimited => {
                 say!("rapide, dans les limites de vitesse, d'accélération et de jerk")

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | velocity, acceleration, jerk | fast, within all three |
 //! | velocity, acceleration | time-optimal, or by the law that is asked for |
-//! | velocity, torque | time-optimal within these, and accelerations where they are known |
+//! | velocity, torque | time-optimal within these, and accelerations where they are known; fast, with viscous friction |
 //! | velocity, torque, jerk | fast, within these, and accelerations where they are known |
 //! | less | a quintic law, slower where velocities are limited |
 
@@ -121,10 +121,12 @@ pub enum TimingLaw {
     Still,
     /// The fastest along the path within velocity and acceleration limits.
     TimeOptimal,
-    /// The fastest along the path within velocity and torque limits.
+    /// Along the path within velocity and torque limits.
     WithinTorques {
         /// Whether within acceleration limits, too.
         accelerations: bool,
+        /// Whether it is the fastest of its grid: no joint has viscous friction, with which speeds are searched for.
+        fastest: bool,
     },
     /// Fast along the path within velocity, acceleration and jerk limits.
     JerkLimited,

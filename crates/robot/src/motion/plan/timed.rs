@@ -50,7 +50,7 @@ pub(super) fn fastest<P: JointPath + 'static>(
         looked_at = torques.map(|torques| held(&timed, slower(&timed, asked), limits, Some(torques)));
         law = match torques {
             None => TimingLaw::TimeOptimal,
-            Some(_) => TimingLaw::WithinTorques { accelerations },
+            Some(torques) => TimingLaw::WithinTorques { accelerations, fastest: !torques.is_viscous() },
         };
         found = Box::new(timed);
     }
