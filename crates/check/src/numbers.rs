@@ -417,13 +417,17 @@ fn judge_here(answer: &Answer, subject: &Subject, tolerance: Option<f64>) -> Fin
     let mut wrong = Wrong { correct: vec![decimal(right)], ..Wrong::default() };
     let other = at(units[1], false).filter(|x| near(*x, allowed));
     let turned = at(units[0], true).filter(|x| near(*x, allowed));
-    let scaled = [1000.0, 0.001].into_iter().find(|k| near(right * k, allowed * k.max(1.0)));
+    // Zero is right in every unit.
+    let scaled = [1000.0, 0.001].into_iter().filter(|_| answer.printed != 0.0);
+    let scaled = scaled.into_iter().find(|k| near(right * k, allowed * k.max(1.0)));
     wrong.remarks.push(match (other.or(turned), scaled) {
         (Some(_), _) => Remark::AngleUnit,
         (None, Some(k)) if k > 1.0 => Remark::Millimetres,
         (None, Some(_)) => Remark::Metres,
         (None, None) if near(-right, allowed) => Remark::Sign,
-        (None, None) if near(right, 4.0 * allowed) => Remark::LastDigit,
+        (None, None) if near(right, 4.0 * allowed) && 4.0 * allowed <= TELLING * right.abs() => {
+            Remark::LastDigit
+        }
         (None, None) => Remark::OffBy((answer.printed - right).abs()),
     });
     Finding::Wrong(Box::new(wrong))
@@ -439,15 +443,21 @@ fn is_angle(e: Expr, subject: &Subject) -> bool {
     !angle.terms.is_empty() && angle.radians.is_zero() && angle.terms.iter().all(|t| turns(t.0))
 }
 
-/// How far a number may be off: zero and one are meant so, other whole numbers are rounded.
+/// How far a number may be off: zero and one are meant so, other whole numbers are rounded, and so are those with so few digits
+/// that a unit of the last one is no small part.
 fn allowed(answer: &Answer) -> f64 {
     let is_whole = answer.printed.fract() == 0.0 && answer.half >= 0.5;
+    let is_coarse = answer.half >= 0.05 && answer.half * 3.0 > TELLING * answer.printed.abs();
     match is_whole {
         true if answer.printed.abs() <= 1.0 => 5e-3,
         true => answer.half * 1.01,
+        false if is_coarse => answer.half * 1.01 + 1e-12,
         false => answer.half * 3.0 + 1e-12,
     }
 }
+
+/// The part of a number by which it may be off in its last digit and still tell the same.
+const TELLING: f64 = 0.02;
 
 /// True if a number is what follows from other rounded numbers.
 pub(super) fn is_near(answer: &Answer, subject: &Subject) -> bool {

@@ -238,7 +238,19 @@ pub struct Call<'a, 'py> {
     /// Where the results go.
     pub out: Option<&'a Bound<'py, PyAny>>,
     /// How many threads compute; as many as pay if it is not said.
-    pub threads: Option<usize>,
+    pub threads: Option<i64>,
+}
+
+/// How many threads are asked for.
+///
+/// # Errors
+/// If that is none, or fewer.
+pub fn count_of(threads: Option<i64>) -> Result<Option<NonZero<usize>>, Trouble> {
+    let count = |n| usize::try_from(n).ok().and_then(NonZero::new);
+    let checked = |n| {
+        count(n).ok_or_else(|| Trouble::new(Kind::Usage, format!("threads is {n}: 1 or more are needed")))
+    };
+    threads.map(checked).transpose()
 }
 
 impl<'py> Call<'_, 'py> {
@@ -284,7 +296,7 @@ impl<'py> Call<'_, 'py> {
             let borrowed = results.try_readwrite();
             let mut borrowed = borrowed.map_err(|why| shape_error(format!("out: {why}")))?;
             let outputs = borrowed.as_slice_mut().map_err(|why| shape_error(format!("out: {why}")))?;
-            let threads = self.threads.and_then(NonZero::new);
+            let threads = count_of(self.threads)?;
             let whole = match &vectors.each[..] {
                 [only] => only.slice(),
                 _ => None,

@@ -1,6 +1,6 @@
 //! Functions that are compiled to be called again and again.
 
-use crate::arrays::{Call, Vector};
+use crate::arrays::{Call, Vector, count_of};
 use crate::inverse::{poses, solver_of};
 use crate::programs::{Named, Programs, VECTORS};
 use crate::ready::Ready;
@@ -14,7 +14,6 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyEllipsis, PySlice, PyTuple};
-use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 
 /// Functions of a robot as one compiled program; what they have in common is computed once.
@@ -145,7 +144,7 @@ impl Compiled {
         py: Python<'py>,
         vectors: &Bound<'py, PyTuple>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         if vectors.len() != self.reads.len() {
             let given = vectors.len();
@@ -236,7 +235,7 @@ impl CompiledIk {
         &self,
         py: Python<'py>,
         pose: &Bound<'py, PyAny>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let matrices = py.import(intern!(py, "denavit._poses"))?.getattr(intern!(py, "matrix_of"))?;
         let (all, shape) = poses(&matrices.call1((pose,))?)?;
@@ -250,10 +249,11 @@ impl CompiledIk {
             (counts[0], regular[0]) = (found.0 as i64, found.1);
             *idle() = Some(scalar);
         } else if !all.is_empty() {
+            let threads = count_of(threads)?;
             py.detach(|| {
                 let rows: Vec<f64> = all.iter().flat_map(|x| variables(self.goal, x, &[])).collect();
                 let mut found = Solutions::default();
-                self.function.batch().run_parallel(threads.and_then(NonZero::new), &rows, &mut found);
+                self.function.batch().run_parallel(threads, &rows, &mut found);
                 regular.copy_from_slice(found.is_regular());
                 for (i, place) in joints.chunks_exact_mut((most * n).max(1)).enumerate() {
                     let kept = found.row(i).filter(|(_, residual)| *residual <= TOLERANCE);

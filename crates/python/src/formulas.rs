@@ -135,7 +135,9 @@ pub fn jacobian(d: &Description, format: &str, of: &str) -> Result<String, Troub
             let blocks = singularities_document(d, &found, Tongue::English);
             written(&of_blocks(title, names.clone(), blocks), format, || {
                 let text = |e| print(e, &names, Style::Ascii);
-                denavit_wire::text(&denavit_wire::singular::Model::with_singularities(&d.name, &found, text))
+                let point = found.of_its_point(d);
+                let model = denavit_wire::singular::Model::with_singularities;
+                denavit_wire::text(&model(&d.name, &found, point.as_ref(), text))
             })
         }
         // The matrix is there all the same, and numbers.
@@ -245,8 +247,8 @@ pub fn checked(text: &str, name: &str, d: Option<&Description>) -> Result<String
 
 /// The claims of a document about the robots in it, as JSON.
 #[pyfunction]
-pub fn check(py: Python<'_>, text: &str, name: &str) -> PyResult<String> {
-    Ok(apart(py, || checked(text, name, None))?)
+pub fn check(py: Python<'_>, text: String, name: String) -> PyResult<String> {
+    apart(py, move || checked(&text, &name, None))
 }
 
 /// Source code that builds and tests itself.

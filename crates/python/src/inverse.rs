@@ -1,6 +1,6 @@
 //! Joint variables for poses.
 
-use crate::arrays::{Rows, array, leading, matrix};
+use crate::arrays::{Rows, array, count_of, leading, matrix};
 use crate::loading::derive;
 use crate::named::options;
 use crate::packed::Packed;
@@ -50,7 +50,7 @@ impl Solvers {
         py: Python<'_>,
         wish: &Wish,
         goal: &str,
-    ) -> Result<(Arc<Prepared>, Vec<f64>), Trouble> {
+    ) -> PyResult<(Arc<Prepared>, Vec<f64>)> {
         let words: Vec<String> = wish.given.iter().map(|g| g.0.clone()).collect();
         let key = format!("{goal} {words:?}");
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -58,14 +58,17 @@ impl Solvers {
         let prepared = match found {
             Some(prepared) => prepared,
             None => {
-                let made = derive(py, text, |d| prepare(d, &words, goal).map(Arc::new))?;
+                let (words, goal) = (words.clone(), goal.to_string());
+                let made = derive(py, text, move |d| prepare(d, &words, &goal).map(Arc::new))?;
                 known().entry(key).or_insert(made).clone()
             }
         };
         // By number or name a joint is found only in the description; the solver has them sorted.
         let mut values = prepared.usual.clone();
         if !wish.given.is_empty() {
-            let order = derive(py, text, |d| Ok(options(d, Some(&words), goal)?.given.unwrap_or_default()))?;
+            let goal = goal.to_string();
+            let order =
+                derive(py, text, move |d| Ok(options(d, Some(&words), &goal)?.given.unwrap_or_default()))?;
             for (value, joint) in values.iter_mut().zip(&prepared.solver.given) {
                 if let Some(k) = order.iter().position(|g| g == joint) {
                     *value = wish.given[k].1;
@@ -243,14 +246,15 @@ pub fn solve_all<'py>(
     many: &Bound<'py, PyAny>,
     wish: &Wish,
     goal: &str,
-    threads: Option<usize>,
+    threads: Option<i64>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let threads = count_of(threads)?;
     let (poses, shape) = poses(many)?;
     let (prepared, values) = solvers.get(text, py, wish, goal)?;
     let solver = &prepared.solver;
     let mut packed = py.detach(|| {
         let cores = || thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
-        let threads = threads.and_then(NonZero::new).unwrap_or_else(cores);
+        let threads = threads.unwrap_or_else(cores);
         Packed::solve(solver, &poses, &values, wish.limits, threads)
     });
     let dict = PyDict::new(py);

@@ -11,7 +11,7 @@ use denavit_report::document::plain;
 use denavit_report::words::{Tongue, Whole};
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
-use pyo3::Python;
+use pyo3::{PyResult, Python};
 use std::path::PathBuf;
 
 /// Metres that a person could see.
@@ -67,6 +67,8 @@ pub struct Facts {
     pub table: (Vec<String>, Vec<Vec<String>>),
     /// Whether it says something of masses.
     pub has_masses: bool,
+    /// Why it says nothing of masses though its file does.
+    pub unweighed: Option<String>,
     /// Warnings and notes.
     pub findings: Vec<Found>,
 }
@@ -185,8 +187,9 @@ impl Request {
                 both.1.unweighed.as_ref()
             }
         };
-        findings.extend(unweighed.map(|why| said("warning", why.to_string(), name)));
-        Ok(Facts::of(&description, findings))
+        let unweighed = unweighed.map(ToString::to_string);
+        findings.extend(unweighed.clone().map(|why| said("warning", why, name)));
+        Ok(Facts { unweighed, ..Facts::of(&description, findings) })
     }
 }
 
@@ -204,14 +207,15 @@ pub fn from_text(text: &str, name: &str) -> Result<Facts, Trouble> {
 ///
 /// # Errors
 /// Those of the work; or if the text has errors.
-pub fn derive<T: Send>(
+pub fn derive<T: Send + 'static>(
     py: Python<'_>,
     text: &str,
-    work: impl FnOnce(&Description) -> Result<T, Trouble> + Send,
-) -> Result<T, Trouble> {
-    apart(py, || {
-        let place = |all: Vec<_>| all.iter().map(|d| found(d, "robot", text)).collect::<Vec<_>>();
-        let (description, _) = read_toml(text).map_err(|all| Trouble::of(place(all)))?;
+    work: impl FnOnce(&Description) -> Result<T, Trouble> + Send + 'static,
+) -> PyResult<T> {
+    let text = text.to_string();
+    apart(py, move || {
+        let place = |all: Vec<_>| all.iter().map(|d| found(d, "robot", &text)).collect::<Vec<_>>();
+        let (description, _) = read_toml(&text).map_err(|all| Trouble::of(place(all)))?;
         work(&description)
     })
 }
@@ -248,6 +252,7 @@ impl Facts {
             poses: d.poses.iter().filter_map(pose).collect(),
             table: table(d),
             has_masses: d.has_masses(),
+            unweighed: None,
             findings,
         }
     }

@@ -58,7 +58,8 @@ impl Core {
     }
 
     fn loaded(py: Python<'_>, request: Request) -> PyResult<Self> {
-        let facts = apart(py, || request.load())?;
+        let asked = request.clone();
+        let facts = apart(py, move || asked.load())?;
         Ok(Core::new(facts, Some(request)))
     }
 
@@ -66,12 +67,14 @@ impl Core {
     ///
     /// # Errors
     /// Those of the work.
-    pub fn derive<T: Send>(
+    pub fn derive<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        work: impl FnOnce(&Description) -> Result<T, Trouble> + Send,
-    ) -> Result<T, Trouble> {
-        loading::derive(py, &self.facts.text, work)
+        work: impl FnOnce(&Description) -> Result<T, Trouble> + Send + 'static,
+    ) -> PyResult<T> {
+        let unweighed = self.facts.unweighed.clone();
+        let explained = move |d: &Description| work(d).map_err(|why| why.explained(unweighed.as_deref()));
+        loading::derive(py, &self.facts.text, explained)
     }
 
     /// The function of this name, compiled when it is first needed.
@@ -79,13 +82,13 @@ impl Core {
         &self,
         py: Python<'_>,
         key: String,
-        program: impl FnOnce(&Description) -> Result<Program, Trouble> + Send,
-    ) -> Result<Arc<Ready>, Trouble> {
+        program: impl FnOnce(&Description) -> Result<Program, Trouble> + Send + 'static,
+    ) -> PyResult<Arc<Ready>> {
         let known = || self.functions.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(function) = known().get(&key) {
             return Ok(function.clone());
         }
-        let made = self.derive(py, |d| compiled(d, &program(d)?))?;
+        let made = self.derive(py, move |d| compiled(d, &program(d)?))?;
         Ok(known().entry(key).or_insert(made).clone())
     }
 }
@@ -141,8 +144,8 @@ impl Core {
 
     /// From the text of a robot file.
     #[staticmethod]
-    fn text(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
-        Ok(Core::new(apart(py, || loading::from_text(text, name))?, None))
+    fn text(py: Python<'_>, text: String, name: String) -> PyResult<Self> {
+        Ok(Core::new(apart(py, move || loading::from_text(&text, &name))?, None))
     }
 
     /// Another chain of what it was read from.
@@ -156,22 +159,24 @@ impl Core {
 
     /// The same with values for parameters.
     fn set(&self, py: Python<'_>, values: Vec<(String, String)>) -> PyResult<Self> {
-        let facts = self.derive(py, |d| {
+        let known = (self.facts.findings.clone(), self.facts.unweighed.clone());
+        let facts = self.derive(py, move |d| {
             let mut d = d.clone();
             for (name, value) in &values {
                 let set = d.set(name, value);
                 set.map_err(|why| Trouble::new(Kind::Usage, format!("{name} = {value}: {why}")))?;
             }
-            Ok(Facts::of(&d, self.facts.findings.clone()))
+            let (findings, unweighed) = known;
+            Ok(Facts { unweighed, ..Facts::of(&d, findings) })
         })?;
         Ok(Core::new(facts, None))
     }
 
     /// The same in another convention.
-    fn converted(&self, py: Python<'_>, to: &str) -> PyResult<Self> {
-        let facts = self.derive(py, |d| {
-            let made = d.converted(loading::convention(to)?).description;
-            let mut findings = self.facts.findings.clone();
+    fn converted(&self, py: Python<'_>, to: String) -> PyResult<Self> {
+        let (mut findings, unweighed) = (self.facts.findings.clone(), self.facts.unweighed.clone());
+        let facts = self.derive(py, move |d| {
+            let made = d.converted(loading::convention(&to)?).description;
             match prove_same_chain(d, &made) {
                 SameChain::Equal => {}
                 SameChain::Different { .. } => {
@@ -184,7 +189,7 @@ impl Core {
                     &d.name,
                 )),
             }
-            Ok(Facts::of(&made, findings))
+            Ok(Facts { unweighed, ..Facts::of(&made, findings) })
         })?;
         Ok(Core::new(facts, None))
     }
@@ -244,12 +249,12 @@ impl Core {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let function = match self.pose.get() {
             Some(function) => function,
             None => {
-                let made = self.derive(q.py(), |d| compiled(d, &pose_program(d)))?;
+                let made = self.derive(q.py(), move |d| compiled(d, &pose_program(d)))?;
                 self.pose.get_or_init(|| made)
             }
         };
@@ -263,10 +268,10 @@ impl Core {
         q: &Bound<'py, PyAny>,
         of: Option<Vec<String>>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let count = of.as_ref().map_or(self.facts.table.1.len() + 2, Vec::len);
-        let function = self.function(q.py(), format!("frames {of:?}"), |d| {
+        let function = self.function(q.py(), format!("frames {of:?}"), move |d| {
             let frames = match of {
                 Some(words) => words.iter().map(|w| reference(d, w)).collect::<Result<Vec<_>, _>>()?,
                 None => programs::frames(d),
@@ -282,15 +287,15 @@ impl Core {
     fn jacobian<'py>(
         &self,
         q: &Bound<'py, PyAny>,
-        of: &str,
-        frame: &str,
-        at: Option<&str>,
+        of: String,
+        frame: String,
+        at: Option<String>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let function = self.function(q.py(), format!("jacobian {of:?} {frame:?} {at:?}"), |d| {
-            let mut view = Viewpoint::of(body(d, of)?, reference(d, frame)?);
-            if let Some(at) = at {
+        let function = self.function(q.py(), format!("jacobian {of:?} {frame:?} {at:?}"), move |d| {
+            let mut view = Viewpoint::of(body(d, &of)?, reference(d, &frame)?);
+            if let Some(at) = &at {
                 view.at = reference(d, at)?;
             }
             Ok(jacobian_program(d, &view))
@@ -306,11 +311,12 @@ impl Core {
         py: Python<'py>,
         name: &str,
         vectors: Vec<Bound<'py, PyAny>>,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let wanted = programs::dynamic(name)
             .ok_or_else(|| Trouble::new(Kind::Usage, format!("no function `{name}`")))?;
-        let function = self.function(py, format!("dynamics {name}"), |d| Programs::new(d).dynamic(wanted))?;
+        let function =
+            self.function(py, format!("dynamics {name}"), move |d| Programs::new(d).dynamic(wanted))?;
         let n = self.facts.joints.len();
         let tail = programs::shape(wanted, n);
         let call = Call { function: &function, n, tail: &tail, out: None, threads };
@@ -320,12 +326,12 @@ impl Core {
 
     /// Functions as one compiled program.
     fn compile(&self, py: Python<'_>, functions: Vec<String>) -> PyResult<Compiled> {
-        Ok(self.derive(py, |d| Compiled::of(d, &functions))?)
+        self.derive(py, move |d| Compiled::of(d, &functions))
     }
 
     /// The closed form of the inverse kinematics as a compiled solver.
-    fn compile_ik(&self, py: Python<'_>, goal: &str) -> PyResult<CompiledIk> {
-        Ok(self.derive(py, |d| CompiledIk::of(d, goal))?)
+    fn compile_ik(&self, py: Python<'_>, goal: String) -> PyResult<CompiledIk> {
+        self.derive(py, move |d| CompiledIk::of(d, &goal))
     }
 
     /// All configurations for a pose.
@@ -353,7 +359,7 @@ impl Core {
         limits: bool,
         given: Vec<(String, f64)>,
         goal: &str,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let wish = inverse::Wish { near: None, limits, one: false, given };
         inverse::solve_all(&self.facts.text, &self.solvers, py, poses, &wish, goal, threads)
@@ -366,7 +372,7 @@ impl Core {
         points: Vec<Vec<f64>>,
         manner: Manner,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let plan = self.derive(py, |d| motion::plan(d, Way::Joints(points), &manner))?;
+        let plan = self.derive(py, move |d| motion::plan(d, Way::Joints(points), &manner))?;
         plan.into_dict(py, self.facts.joints.len())
     }
 
@@ -380,7 +386,7 @@ impl Core {
         manner: Manner,
     ) -> PyResult<Bound<'py, PyDict>> {
         let way = motion::way_of_poses(poses, along, start)?;
-        let plan = self.derive(py, |d| motion::plan(d, way, &manner))?;
+        let plan = self.derive(py, move |d| motion::plan(d, way, &manner))?;
         plan.into_dict(py, self.facts.joints.len())
     }
 
@@ -388,100 +394,112 @@ impl Core {
     fn derive_text(
         &self,
         py: Python<'_>,
-        format: &str,
-        from: &str,
-        to: &str,
-        only: &str,
+        format: String,
+        from: String,
+        to: String,
+        only: String,
     ) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::forward(d, format, from, to, only))?)
+        self.derive(py, move |d| formulas::forward(d, &format, &from, &to, &only))
     }
 
     /// How the closed form is derived.
     fn ik_explain(
         &self,
         py: Python<'_>,
-        format: &str,
+        format: String,
         given: Option<Vec<String>>,
-        goal: &str,
+        goal: String,
     ) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::inverse(d, format, given.as_deref(), goal))?)
+        self.derive(py, move |d| formulas::inverse(d, &format, given.as_deref(), &goal))
     }
 
     /// The Jacobian in formulas, and where it is singular.
-    fn jacobian_explain(&self, py: Python<'_>, format: &str, of: &str) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::jacobian(d, format, of))?)
+    fn jacobian_explain(&self, py: Python<'_>, format: String, of: String) -> PyResult<String> {
+        self.derive(py, move |d| formulas::jacobian(d, &format, &of))
     }
 
     /// Torques in formulas.
-    fn dynamics_explain(&self, py: Python<'_>, format: &str) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::dynamics(d, format))?)
+    fn dynamics_explain(&self, py: Python<'_>, format: String) -> PyResult<String> {
+        self.derive(py, move |d| formulas::dynamics(d, &format))
     }
 
     /// What `derive_text`, `ik_explain`, `jacobian_explain` and `dynamics_explain` write, as nodes.
-    fn derive_nodes(&self, py: Python<'_>, from: &str, to: &str, only: &str) -> PyResult<symbols::Listed> {
-        Ok(self.derive(py, |d| symbols::forward(d, from, to, only))?)
+    fn derive_nodes(
+        &self,
+        py: Python<'_>,
+        from: String,
+        to: String,
+        only: String,
+    ) -> PyResult<symbols::Listed> {
+        self.derive(py, move |d| symbols::forward(d, &from, &to, &only))
     }
 
-    fn ik_nodes(&self, py: Python<'_>, given: Option<Vec<String>>, goal: &str) -> PyResult<symbols::Listed> {
-        Ok(self.derive(py, |d| symbols::inverse(d, given.as_deref(), goal))?)
+    fn ik_nodes(
+        &self,
+        py: Python<'_>,
+        given: Option<Vec<String>>,
+        goal: String,
+    ) -> PyResult<symbols::Listed> {
+        self.derive(py, move |d| symbols::inverse(d, given.as_deref(), &goal))
     }
 
-    fn jacobian_nodes(&self, py: Python<'_>, of: &str) -> PyResult<symbols::Listed> {
-        Ok(self.derive(py, |d| symbols::jacobian(d, of))?)
+    fn jacobian_nodes(&self, py: Python<'_>, of: String) -> PyResult<symbols::Listed> {
+        self.derive(py, move |d| symbols::jacobian(d, &of))
     }
 
     fn dynamics_nodes(&self, py: Python<'_>) -> PyResult<symbols::Listed> {
-        Ok(self.derive(py, |d| Ok(symbols::dynamics(d)))?)
+        self.derive(py, move |d| Ok(symbols::dynamics(d)))
     }
 
     /// The whole report.
-    fn report(&self, py: Python<'_>, format: &str, language: &str) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::report(d, format, language))?)
+    fn report(&self, py: Python<'_>, format: String, language: String) -> PyResult<String> {
+        self.derive(py, move |d| formulas::report(d, &format, &language))
     }
 
     /// The arm, or its line diagram, as SVG.
     fn figure(&self, py: Python<'_>, q: Option<Vec<f64>>, scheme: bool) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::figure(d, q.as_deref(), scheme))?)
+        self.derive(py, move |d| formulas::figure(d, q.as_deref(), scheme))
     }
 
-    /// The claims of a document about this robot, as JSON.
+    /// A sheet of tasks, as JSON.
     fn exercise(&self, py: Python<'_>, request: exercises::Request) -> PyResult<String> {
-        Ok(self.derive(py, |d| exercises::data(d, &request))?)
+        self.derive(py, move |d| exercises::data(d, &request))
     }
 
     fn exercise_sheet(
         &self,
         py: Python<'_>,
         request: exercises::Request,
-        format: &str,
+        format: String,
         solution: bool,
     ) -> PyResult<String> {
-        Ok(self.derive(py, |d| exercises::sheet(d, &request, format, solution))?)
+        self.derive(py, move |d| exercises::sheet(d, &request, &format, solution))
     }
 
     fn exercise_marked(
         &self,
         py: Python<'_>,
         request: exercises::Request,
-        text: &str,
-        name: &str,
+        text: String,
+        name: String,
     ) -> PyResult<(String, String)> {
-        Ok(self.derive(py, |d| exercises::marked(d, &request, text, name))?)
+        self.derive(py, move |d| exercises::marked(d, &request, &text, &name))
     }
 
-    fn check(&self, py: Python<'_>, text: &str, name: &str) -> PyResult<String> {
-        Ok(self.derive(py, |d| formulas::checked(text, name, Some(d)))?)
+    /// The claims of a document about this robot, as JSON.
+    fn check(&self, py: Python<'_>, text: String, name: String) -> PyResult<String> {
+        self.derive(py, move |d| formulas::checked(&text, &name, Some(d)))
     }
 
     /// Source code: files, what is said of each function, and the command that tests it.
     fn generate(
         &self,
         py: Python<'_>,
-        language: &str,
+        language: String,
         functions: Vec<String>,
         name: Option<String>,
-        goal: &str,
+        goal: String,
     ) -> PyResult<formulas::Code> {
-        Ok(self.derive(py, |d| formulas::code(d, language, &functions, name, goal))?)
+        self.derive(py, move |d| formulas::code(d, &language, &functions, name, &goal))
     }
 }

@@ -110,6 +110,10 @@ pub fn jacobian(d: &Description, of: &str) -> Result<Listed, Trouble> {
     for minor in found.iter().flat_map(|f| &f.minors) {
         list.add("determinant", [vec![minor.determinant.to_expr()]]);
     }
+    let point = found.as_ref().ok().and_then(|found| found.of_its_point(d));
+    for minor in point.iter().flat_map(|f| &f.minors) {
+        list.add("point", [vec![minor.determinant.to_expr()]]);
+    }
     list.steps(&model.algorithm.steps());
     Ok(list.done())
 }
@@ -203,12 +207,12 @@ pub fn not_proved(
     those: Vec<One>,
     pairs: Vec<(usize, usize)>,
 ) -> PyResult<Vec<usize>> {
-    Ok(apart(py, || {
+    apart(py, move || {
         let (these, those) = (rebuilt(&these)?, rebuilt(&those)?);
         let is_open = |&(a, b): &(usize, usize)| match (these.get(a), those.get(b)) {
             (Some(&a), Some(&b)) => a != b && !equal(a, b).is_equal(),
             _ => true,
         };
         Ok(pairs.iter().enumerate().filter(|(_, pair)| is_open(pair)).map(|(k, _)| k).collect())
-    })?)
+    })
 }

@@ -4,7 +4,9 @@ use denavit::description::Diagnostic;
 use denavit_load::Finding;
 use pyo3::prelude::*;
 use pyo3::{PyErr, import_exception};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
+use std::time::Duration;
 
 import_exception!(denavit._errors, ChainError);
 import_exception!(denavit._errors, DescriptionError);
@@ -17,6 +19,9 @@ import_exception!(denavit._errors, ShapeError);
 import_exception!(denavit._errors, UnknownRobotError);
 import_exception!(denavit._errors, UnsupportedError);
 import_exception!(denavit._errors, UsageError);
+
+/// How long a signal may have to wait.
+const WAKE: Duration = Duration::from_millis(50);
 
 /// How deep a derivation may go.
 const STACK: usize = 64 << 20;
@@ -89,6 +94,15 @@ impl Trouble {
         Trouble { kind: Kind::Description, message: errors.join("\n"), findings }
     }
 
+    /// With why a description says nothing of masses, where it is known and this is the trouble.
+    #[must_use]
+    pub fn explained(mut self, unweighed: Option<&str>) -> Self {
+        if let (Kind::NoMasses, Some(why)) = (self.kind, unweighed) {
+            self.message = format!("{} ({why})", self.message);
+        }
+        self
+    }
+
     /// Parameters have no value.
     pub fn missing(why: impl std::fmt::Display) -> Self {
         Trouble::new(Kind::Missing, format!("{why}; `robot.set(name=value)` gives values"))
@@ -115,19 +129,39 @@ impl From<Trouble> for PyErr {
     }
 }
 
-/// Does something on a thread of its own, whose formulas end with it, while Python's other threads run.
+/// Does something on a thread of its own, whose formulas end with it, while Python's other threads run. A signal is attended to
+/// within [`WAKE`]: the thread then goes on, and what it finds is dropped.
 ///
 /// # Errors
-/// Those of the work; or if no thread can be started.
-pub fn apart<T: Send>(
+/// Those of the work; what the signal's handler raises; or if no thread can be started.
+pub fn apart<T: Send + 'static>(
     py: Python<'_>,
-    work: impl FnOnce() -> Result<T, Trouble> + Send,
-) -> Result<T, Trouble> {
-    py.detach(|| {
-        thread::scope(|scope| {
-            let started = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
-            let started = started.map_err(|e| Trouble::new(Kind::Unsupported, format!("no thread: {e}")))?;
-            started.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        })
-    })
+    work: impl FnOnce() -> Result<T, Trouble> + Send + 'static,
+) -> PyResult<T> {
+    let (send, receive) = mpsc::sync_channel(1);
+    let started = thread::Builder::new().stack_size(STACK).spawn(move || {
+        // Nobody listens any more where a signal came first.
+        let _ = send.send(work());
+    });
+    let started = started.map_err(|e| Trouble::new(Kind::Unsupported, format!("no thread: {e}")))?;
+    let mut receive = receive;
+    loop {
+        let waited;
+        (receive, waited) = py.detach(move || {
+            let waited = receive.recv_timeout(WAKE);
+            (receive, waited)
+        });
+        // Before anything of Python's is made: a signal that is still due would be raised there.
+        py.check_signals()?;
+        match waited {
+            Ok(found) => return Ok(found?),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(match started.join() {
+                    Err(panic) => std::panic::resume_unwind(panic),
+                    Ok(()) => Trouble::new(Kind::Unsupported, "the work ended without an answer").into(),
+                });
+            }
+        }
+    }
 }

@@ -161,3 +161,25 @@ def test_batches_of_any_shape():
     assert len(empty) == 0 and empty.solutions.shape == (0, 6)
     again = robot.ik_batch(robot.fk(q), threads=1)
     assert np.array_equal(again.solutions, answers.solutions)
+
+
+def test_points_will_do_for_positions():
+    robot = Robot("articulated-3r")
+    poses = robot.fk([[0.1, 0.2, 0.3], [0.4, -0.3, 0.8], [1.0, 0.1, -0.4], [0.2, 0.3, 0.9]]).reshape(2, 2, 4, 4)
+    by_points = robot.ik_batch(poses[..., :3, 3], goal="position")
+    assert np.array_equal(by_points.solutions, robot.ik_batch(poses, goal="position").solutions)
+    one = robot.ik(poses[1, 0][:3, 3], goal="position")
+    assert np.array_equal(by_points[1, 0].solutions, one.solutions) and len(one) == 4
+    with pytest.raises(IndexError, match="2 indices"):
+        by_points[1, 0, 0]
+    with pytest.raises(ShapeError):
+        robot.ik(poses[1, 0][:3, 3])
+
+
+def test_numbers_that_are_no_counts():
+    robot = Robot("ur5")
+    for threads in (0, -1):
+        with pytest.raises(UsageError, match="threads"):
+            robot.fk(np.zeros((4, 6)), threads=threads)
+    with pytest.raises(UsageError, match="seed"):
+        robot.exercise("fk", seed=-1)

@@ -72,6 +72,8 @@ def test_motions_are_those_of_the_command_line(cli):
     end = goal.copy()
     end[:3, 3] += [0.0, 0.08, 0.02]
     motion = UR5.follow([goal, end], start=Q, along=["screw", via], duration=4.0)
+    alone = UR5.follow([goal, end], along=via, duration=4.0)
+    assert alone.course == UR5.follow([goal, end], along=[via], duration=4.0).course
     assert motion.ok and motion.course == "1 line, 1 arc" and motion.duration == 4.0
     assert np.abs(motion.poses[-1] - end).max() < 1e-5
     # It goes through the point.

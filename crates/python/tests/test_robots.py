@@ -19,6 +19,7 @@ from denavit import (
     ChainError,
     DenavitError,
     DescriptionError,
+    DescriptionWarning,
     FileError,
     Robot,
     UnknownRobotError,
@@ -99,6 +100,32 @@ def test_rows_that_are_wrong():
     ]:
         with pytest.raises(UsageError, match=what):
             Robot.from_dh(rows, convention=convention)
+
+
+def test_warnings_are_pythons_own():
+    with pytest.warns(DescriptionWarning, match="cannot move") as caught:
+        Robot.from_dh([(0, 0, 1, 0)], convention="standard")
+    assert caught[0].filename == __file__
+    robot = Robot.from_dh([("q1", 0, 1, 0)], convention="standard", tool=np.eye(4))
+    assert robot.findings == () and robot.fk([0.0])[0, 3] == 1.0
+    with pytest.raises(UsageError, match="4×4"):
+        Robot.from_dh([("q1", 0, 1, 0)], convention="standard", tool=np.eye(3))
+
+
+def test_long_derivations_hear_signals():
+    wait = "import os, signal, threading, time; from denavit import Robot; robot = Robot('franka-panda'); "
+    send = "threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start(); begun = time.time()\n"
+    work = "try:\n    for k in range(40): robot.dynamics_explain()\nexcept KeyboardInterrupt: print(time.time() - begun)"
+    run = subprocess.run([sys.executable, "-c", wait + send + work], capture_output=True, text=True, check=True)
+    assert "PanicException" not in run.stderr
+    assert 0.2 < float(run.stdout) < 5.0
+
+
+def test_the_position_of_short_arms_is_looked_at():
+    found = Robot("planar-2r").jacobian_explain()
+    assert "a1a2S2" in found and "Rows vy, wz" in found
+    assert json.loads(found.to("json"))["point"]["determinants"][0]["determinant"] == "a1*a2*S2"
+    assert "point" not in json.loads(Robot("ur5").jacobian_explain("json"))
 
 
 def test_values_of_parameters():

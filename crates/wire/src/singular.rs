@@ -34,6 +34,9 @@ pub struct Model {
     pub joint_rates: Option<Rates>,
     /// Whose velocity.
     pub of: String,
+    /// Where its origin alone is singular, the orientation left aside: of arms with three joints at the most, if that is elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<Point>,
     /// What is proved of the steps.
     pub proof: String,
     /// The robot's name.
@@ -55,6 +58,27 @@ pub struct Model {
     pub unexpanded: Option<String>,
 }
 
+/// Where the origin of a body alone is singular.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Point {
+    /// Whether the singularities are all.
+    pub complete: bool,
+    /// Square parts of its three rows that are 0 where it is singular.
+    pub determinants: Vec<Determinant>,
+    /// What the determinants have in common.
+    pub singularities: Vec<Singularity>,
+}
+
+impl Point {
+    fn of(found: &velocity::Singularities, text: impl Fn(Expr) -> String + Copy) -> Self {
+        Point {
+            complete: found.is_complete,
+            determinants: found.minors.iter().map(|m| Determinant::of(m, text)).collect(),
+            singularities: found.common.iter().map(|s| Singularity::of(s, text)).collect(),
+        }
+    }
+}
+
 /// A square part of the Jacobian.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Determinant {
@@ -64,6 +88,16 @@ pub struct Determinant {
     pub joints: Vec<usize>,
     /// Its rows by name.
     pub rows: Vec<&'static str>,
+}
+
+impl Determinant {
+    fn of(m: &Minor, text: impl Fn(Expr) -> String) -> Self {
+        Determinant {
+            determinant: text(m.determinant.to_expr()),
+            joints: m.joints.iter().map(|j| j + 1).collect(),
+            rows: m.rows.iter().map(|&r| ROWS[r]).collect(),
+        }
+    }
 }
 
 /// The zeros of a factor.
@@ -77,6 +111,17 @@ pub struct Singularity {
     pub power: u32,
     /// The factor solved for an angle, where that is simple.
     pub zeros: Vec<Zeros>,
+}
+
+impl Singularity {
+    fn of(s: &velocity::Singularity, text: impl Fn(Expr) -> String + Copy) -> Self {
+        Singularity {
+            example: s.example.as_ref().map(Example::from),
+            factor: text(s.factor),
+            power: s.power,
+            zeros: s.zeros.iter().map(|z| Zeros::of(z, text)).collect(),
+        }
+    }
 }
 
 /// Values of an angle.
@@ -157,6 +202,7 @@ impl Model {
             jacobian: matrix.map(|m| m.rows().map(|row| row.into_iter().map(text).collect())),
             joint_rates: None,
             of: frame(model.view.body),
+            point: None,
             proof: words().jacobian_proof(model.proof),
             robot: robot.into(),
             rows: ROWS,
@@ -188,28 +234,19 @@ impl Model {
         }
     }
 
-    /// The matrix with where it is singular.
+    /// The matrix with where it is singular, and where its origin alone is if that is looked at, too.
     pub fn with_singularities(
         robot: &str,
         found: &velocity::Singularities,
+        point: Option<&velocity::Singularities>,
         text: impl Fn(Expr) -> String + Copy,
     ) -> Self {
-        let determinant = |m: &Minor| Determinant {
-            determinant: text(m.determinant.to_expr()),
-            joints: m.joints.iter().map(|j| j + 1).collect(),
-            rows: m.rows.iter().map(|&r| ROWS[r]).collect(),
-        };
-        let singularity = |s: &velocity::Singularity| Singularity {
-            example: s.example.as_ref().map(Example::from),
-            factor: text(s.factor),
-            power: s.power,
-            zeros: s.zeros.iter().map(|z| Zeros::of(z, text)).collect(),
-        };
         Model {
             complete: Some(found.is_complete),
-            determinants: Some(found.minors.iter().map(determinant).collect()),
+            determinants: Some(found.minors.iter().map(|m| Determinant::of(m, text)).collect()),
             joint_rates: found.rates.as_ref().map(|rates| Rates::of(rates, text)),
-            singularities: Some(found.common.iter().map(singularity).collect()),
+            point: point.map(|point| Point::of(point, text)),
+            singularities: Some(found.common.iter().map(|s| Singularity::of(s, text)).collect()),
             ..Self::of(robot, &found.jacobian, text)
         }
     }

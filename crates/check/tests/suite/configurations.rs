@@ -76,6 +76,37 @@ fn a_wrong_row_is_found_and_no_right_one_accused() {
     assert!(arms_tried > 50 && found == arms_tried, "{found} of {arms_tried}");
 }
 
+/// A coordinate with few digits is one that was rounded: a unit more in its last one is another number where that is a good part
+/// of it, and is neither in another unit nor off by rounding.
+#[test]
+fn coarse_numbers_are_rounded_ones() {
+    let mut random = Random(11);
+    let mut wrong = 0;
+    for (d, robot) in arms().filter(|(d, _)| d.variables().iter().all(|v| v.kind == JointKind::Revolute)) {
+        let degrees: Vec<f64> = (0..robot.joints).map(|_| (360.0 * random.unit() - 180.0).round()).collect();
+        let q: Vec<f64> = degrees.iter().map(|x| x.to_radians()).collect();
+        let x = robot.pose(&q).translation.0[0];
+        let told: Vec<String> =
+            degrees.iter().enumerate().map(|(k, q)| format!("q{} = {q}°", k + 1)).collect();
+        let of = |decimals: usize, more: f64| {
+            let text = format!("At {} the hand is at\n\n$x = {:.decimals$}$ m\n", told.join(", "), x + more);
+            let found = check(&text, Format::Markdown, Some(&d), &CheckOptions::default()).unwrap();
+            let claim = found.claims.iter().find(|c| c.name == "x").unwrap_or_else(|| panic!("{text}"));
+            (claim.standing(), format!("{:?}", claim.entries))
+        };
+        for decimals in 1..4 {
+            assert_eq!(of(decimals, 0.0).0, Standing::Equal, "{} {x} {decimals}", d.name);
+        }
+        if x.abs() < 2.0 {
+            let (standing, said) = of(1, 0.11 * x.signum());
+            assert_eq!(standing, Standing::Wrong, "{} {x}", d.name);
+            assert!(!said.contains("Metres") && !said.contains("LastDigit"), "{} {x}: {said}", d.name);
+            wrong += 1;
+        }
+    }
+    assert!(wrong > 40, "{wrong}");
+}
+
 #[test]
 fn solutions_of_a_point() {
     let d = catalogue::robot("articulated-3r").unwrap();

@@ -237,7 +237,7 @@ impl Source<'_> {
             "aligned to 64 bytes are fastest. Lanes that are not needed must hold finite numbers.",
             "",
             "Never compile with -ffast-math, -Ofast or /fp:fast: they remove roundings that results depend",
-            "on. icx does so by default: give it -fp-model=precise.",
+            "on. icx does so by default: give it -fp-model=precise. Link with -lm.",
             "Compile with -ffp-contract=off; with -O3 and -march=x86-64-v3 (or -march=native) for speed, or",
             &format!("with -D{upper}_MULTIVERSION (gcc on x86-64), which chooses when the program starts."),
             &strict,

@@ -162,13 +162,18 @@ class Answers:
         return len(self.status)
 
     @overload
-    def __getitem__(self, i: int) -> Answer: ...
+    def __getitem__(self, i: Union[int, tuple[int, ...]]) -> Answer: ...
     @overload
     def __getitem__(self, i: slice) -> list[Answer]: ...
-    def __getitem__(self, i: Union[int, slice]) -> Union[Answer, list[Answer]]:
-        """The answer of one pose, counted along the flattened leading shape."""
+    def __getitem__(self, i: Union[int, tuple[int, ...], slice]) -> Union[Answer, list[Answer]]:
+        """The answer of one pose, counted along the flattened leading shape, or by an index for each of its axes."""
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
+        if isinstance(i, tuple):
+            if len(i) != self.counts.ndim:
+                raise IndexError(f"answer {i} of poses {self.counts.shape}: {self.counts.ndim} indices are needed")
+            numbers = np.arange(len(self)).reshape(self.counts.shape)
+            return self[int(numbers[i])]
         k = i + len(self) if i < 0 else i
         if not 0 <= k < len(self):
             raise IndexError(f"answer {i} of {len(self)}")

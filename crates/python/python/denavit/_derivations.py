@@ -40,6 +40,8 @@ class JacobianFormulas(NamedTuple):
     determinants: list[Any]
     #: The program for the matrix.
     steps: list[Step]
+    #: Those of the linear rows alone, of arms with up to three joints whose hand's origin gets stuck elsewhere than its body.
+    point_determinants: list[Any]
 
 
 class DynamicFormulas(NamedTuple):
@@ -158,7 +160,8 @@ def forward_formulas(found: list[tuple[str, list[list[Any]]]]) -> ForwardFormula
 def jacobian_formulas(found: list[tuple[str, list[list[Any]]]]) -> JacobianFormulas:
     """The Jacobian out of its formulas by names."""
     determinants = [rows[0][0] for name, rows in found if name == "determinant"]
-    return JacobianFormulas(_one(found, "jacobian"), determinants, _named(found, "step"))
+    point = [rows[0][0] for name, rows in found if name == "point"]
+    return JacobianFormulas(_one(found, "jacobian"), determinants, _named(found, "step"), point)
 
 
 def dynamic_formulas(found: list[tuple[str, list[list[Any]]]]) -> DynamicFormulas:

@@ -6,10 +6,10 @@ import json
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, Optional, Union
 
 from . import _denavit
-from ._errors import FileError
+from ._errors import FileError, UsageError
 from ._formulas import Derivations
 
 
@@ -27,6 +27,27 @@ class Claim:
     line: int
     #: Everything that is known of it: see ``docs/json.md``.
     data: dict[str, Any] = field(repr=False)
+
+    @property
+    def correct(self) -> Any:
+        """What is right instead, as text or rows of text; ``None`` where it is not known or nothing is wrong."""
+        return self.data.get("correct")
+
+    @property
+    def slip(self) -> Optional[str]:
+        """The slip that explains it, in words; ``None`` where none was found."""
+        found = self.data.get("slip")
+        return None if found is None else str(found["words"])
+
+    def __str__(self) -> str:
+        parts = [f"line {self.line}: {self.claim} ({self.about}): {self.verdict}"]
+        if self.verdict in ("wrong", "carried"):
+            right = self.correct
+            if isinstance(right, list):
+                right = "; ".join(", ".join(map(str, row)) if isinstance(row, list) else str(row) for row in right)
+            parts += [f"right is {right}"] if right else []
+            parts += [self.slip] if self.slip else []
+        return "; ".join(parts)
 
 
 @dataclass(frozen=True)
@@ -63,11 +84,20 @@ class Checked:
         bad = ("wrong", "carried", "conditional", "undecided", "unreadable")
         return not any(self.tally[verdict] for verdict in bad)
 
+    def __str__(self) -> str:
+        """A line for each claim, and how many there are of each verdict."""
+        tally = ", ".join(f"{count} {verdict}" for verdict, count in self.tally.items() if count)
+        lines = [str(claim) for claim in self.claims]
+        lines += [f"line {skipped['at']['line']}: not judged: {skipped['text']}" for skipped in self.data.get("unjudged", [])]
+        return "\n".join([*lines, tally or "no claims"])
+
 
 def read_document(document: Union[str, os.PathLike[str]], name: str) -> tuple[str, str]:
     """Text and name of a document: a path is read; a ``str`` with a line break in it is the text itself."""
     if isinstance(document, str) and "\n" in document:
         return document, name
+    if document == "":
+        raise UsageError("the document is empty: a path, or a text with a line break, is needed")
     path = Path(document)
     try:
         return path.read_text(encoding="utf-8", errors="replace"), str(path)
@@ -199,5 +229,7 @@ class Exercise:
 
 def exercise_of(robot: Derivations, kind: str, seed: int, count: int, language: str) -> Exercise:
     """The exercise of these options about a robot."""
+    if seed < 0 or count < 0:
+        raise UsageError(f"seed {seed}, count {count}: neither is negative")
     data = json.loads(robot._core.exercise((kind, seed, count, language)))
     return Exercise(kind, seed, count, language, data, robot)

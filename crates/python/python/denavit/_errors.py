@@ -50,6 +50,10 @@ class DenavitError(Exception):
         return (type(self), (str(self), self.findings))
 
 
+class DescriptionWarning(UserWarning):
+    """Something about a description that is worth a look; `Robot.findings` holds it with its place."""
+
+
 class UnknownRobotError(DenavitError, LookupError):
     """There is no robot of this name in the catalogue."""
 

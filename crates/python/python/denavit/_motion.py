@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -85,7 +85,7 @@ class Motions:
         poses: Any,
         *,
         start: Optional[ArrayLike] = None,
-        along: Union[str, Sequence[Union[str, ArrayLike]]] = "line",
+        along: Union[str, ArrayLike, Sequence[Union[str, ArrayLike]]] = "line",
         max_deviation: Optional[float] = None,
         speed: float = 0.25,
         alternatives: bool = False,
@@ -132,7 +132,7 @@ class Motions:
         >>> bool(abs(motion.poses[-1] - there).max() < 1e-5)
         True
         """
-        pieces = [along] if isinstance(along, str) else list(along)
+        pieces: list[Any] = [along] if isinstance(along, str) or _is_point(along) else list(cast(Sequence[Any], along))
         entries = [p if isinstance(p, str) else _point(p) for p in pieces]
         manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
         manner.update(max_deviation=max_deviation, speed=speed, alternatives=alternatives)
@@ -181,6 +181,12 @@ def _limits(given: Limits, what: str, n: int) -> Optional[list[float]]:
         raise UsageError(f"{what} holds {values[~(values > 0.0)].item(0)}: positive numbers are needed")
     each: list[float] = np.broadcast_to(values, (n,)).tolist()
     return each
+
+
+def _is_point(given: Any) -> bool:
+    """Whether it is three numbers, and not a list of pieces."""
+    entries = list(given)
+    return len(entries) == 3 and all(np.ndim(x) == 0 and not isinstance(x, str) for x in entries)
 
 
 def _point(given: ArrayLike) -> list[float]:

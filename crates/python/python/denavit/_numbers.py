@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._answers import Answer, Answers, answer_of, answers_of
 from ._denavit import Compiled, CompiledIk, Core
 from ._errors import ShapeError
-from ._poses import matrix_of
+from ._poses import goal_of
 from ._slopes import (
     AccelerationDerivatives,
     TorqueDerivatives,
@@ -100,11 +100,13 @@ class Numbers:
         Parameters
         ----------
         pose
-            A 4×4 matrix; ``(p, xyzw)``, ``(p, R)`` or ``(p, Rotation)`` with SciPy's rotations; a spatialmath ``SE3``.
+            A 4×4 matrix; ``(p, xyzw)``, ``(p, R)`` or ``(p, Rotation)`` with SciPy's rotations; a spatialmath ``SE3``. With the goal
+            ``position`` a point ``(3,)`` will do.
         near
             A configuration ``(n,)``: `Answer.nearest` is the solution next to it, of those within the limits if there are some.
         limits
-            Whether solutions that the joints' limits exclude are left out.
+            Whether solutions that the joints' limits exclude are left out; those that stay are given within the limits, whole turns
+            from where they would be otherwise.
         one
             Whether one solution will do: within the limits if one is, and near to ``near``.
         given
@@ -123,7 +125,7 @@ class Numbers:
         [0.3, -1.2, 1.5, 0.4, 0.9, -0.6]
         """
         return answer_of(
-            self._core.ik(matrix_of(pose), vector(near, "near"), limits, one, values_of(given), goal)
+            self._core.ik(goal_of(pose, goal), vector(near, "near"), limits, one, values_of(given), goal)
         )
 
     def ik_batch(
@@ -135,13 +137,16 @@ class Numbers:
         goal: str = "pose",
         threads: Optional[int] = None,
     ) -> Answers:
-        """All configurations for many poses ``(..., 4, 4)``, on all cores; the rest as in `ik`."""
-        return answers_of(self._core.ik_batch(matrix_of(poses), limits, values_of(given), goal, threads))
+        """All configurations for many poses ``(..., 4, 4)``, or points ``(..., 3)`` with the goal ``position``, on all cores; the rest
+        as in `ik`.
+        """
+        return answers_of(self._core.ik_batch(goal_of(poses, goal), limits, values_of(given), goal, threads))
 
     def torque(self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, *, threads: Optional[int] = None) -> Floats:
         """Torques τ (N·m; N for slides) that make the accelerations ``qdd`` in the state ``(q, qd)``: ``(..., n)``.
 
-        Friction and rotors are in them where the robot says so. The arrays ``(..., n)`` are broadcast against each other.
+        Friction and rotors are in them where the robot says so. The arrays ``(..., n)`` are broadcast against each other. The
+        first call derives the formulas, which takes a second or two for six joints; later ones only compute.
 
         Raises `NoMassesError` if the robot says nothing of masses.
 

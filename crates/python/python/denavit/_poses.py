@@ -35,6 +35,14 @@ def matrix_of(pose: Any) -> Floats:
         raise ShapeError(f"pose is no array: {why}") from None
 
 
+def goal_of(given: Any, goal: str) -> Floats:
+    """What is to be reached: poses as in `matrix_of`; points ``(..., 3)``, too, where the orientation does not matter."""
+    found = matrix_of(given)
+    if goal != "position" or found.shape[-1:] != (3,) or found.dtype.kind not in "fiu":
+        return found
+    return _of_pair(found, np.eye(3))
+
+
 def _of_pair(position: Any, rotation: Any) -> Floats:
     p = np.asarray(position, dtype=np.float64)
     if p.shape[-1:] != (3,):

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._denavit import Core
 from ._denavit import catalogue as _catalogue
-from ._errors import Finding, findings_of
+from ._errors import DescriptionWarning, Finding, findings_of
 from ._formulas import Derivations, PathLike
 from ._motion import Motions
 from ._numbers import Numbers
@@ -76,7 +76,7 @@ class Robot(Numbers, Derivations, Motions):
         tip: Optional[str] = None,
         convention: Optional[str] = None,
     ) -> None:
-        self._core = Core.catalogue(name, base, tip, convention)
+        self._core = _warned(Core.catalogue(name, base, tip, convention))
 
     @classmethod
     def _of(cls, core: Core) -> Robot:
@@ -120,16 +120,16 @@ class Robot(Numbers, Derivations, Motions):
             Which table of a document, from 1; what its columns mean, as in ``"theta alpha a d"``.
 
         Raises `DescriptionError` with all findings if the file has errors, `ChainError` if there is no such chain or several
-        to choose from, `FileError` if it cannot be read. What is worth saying besides is in `findings`.
+        to choose from, `FileError` if it cannot be read. What is worth saying besides is in `findings`; warnings are raised as
+        `DescriptionWarning`, too, by Python's ``warnings``.
         """
         given = [(str(k), str(v)) for k, v in (arguments or {}).items()]
         folders = [(str(k), os.fspath(v)) for k, v in (packages or {}).items()]
         name = os.fspath(path)
-        return cls._of(
-            Core.file(
-                name, base, tip, convention, given, folders, as_written, angles, lengths, table, columns
-            )
+        core = Core.file(
+            name, base, tip, convention, given, folders, as_written, angles, lengths, table, columns
         )
+        return cls._of(_warned(core))
 
     @classmethod
     def from_dh(
@@ -139,8 +139,8 @@ class Robot(Numbers, Derivations, Motions):
         convention: str,
         name: str = "robot",
         parameters: Optional[Mapping[str, Any]] = None,
-        base: Optional[Mapping[str, Any]] = None,
-        tool: Optional[Mapping[str, Any]] = None,
+        base: Union[Mapping[str, Any], ArrayLike, None] = None,
+        tool: Union[Mapping[str, Any], ArrayLike, None] = None,
         gravity: Optional[Sequence[Any]] = None,
     ) -> Robot:
         """A robot from the rows of its table.
@@ -149,7 +149,8 @@ class Robot(Numbers, Derivations, Motions):
         (``standard``); alpha, a, theta, d (``craig``); alpha, d, theta, r (``khalil``). A cell is a number (metres, radians)
         or a text: ``"q1"``, ``"q2 - 90 deg"``, ``"450 mm"``, ``"L1"``; the cell with the joint's variable makes the row
         revolute or prismatic, a row without one does not move. A mapping also holds ``limits``, ``velocity``,
-        ``acceleration``, ``name``, ``mass``, ``com``, ``inertia``, ``rotor``, ``viscous`` and ``coulomb``, as robot files do.
+        ``acceleration``, ``name``, ``mass``, ``com``, ``inertia``, ``rotor``, ``viscous`` and ``coulomb``, as robot files do (``com`` in the row's
+        frame; ``inertia`` about it: xx, xy, xz, yy, yz, zz).
         As there, a float that is the nearest double to a multiple of π/12 is that angle exactly, so that ``math.pi / 2`` is a
         quarter turn; `findings` says so.
 
@@ -167,14 +168,14 @@ class Robot(Numbers, Derivations, Motions):
         parameters
             Symbols of the table with their values; ``None`` for one without value, which formulas carry.
         base, tool
-            Frame 0 in the base and the tool in the last frame: ``{"xyz": …, "rpy": …}`` or ``{"matrix": …}``.
+            Frame 0 in the base and the tool in the last frame: ``{"xyz": …, "rpy": …}``, ``{"matrix": …}``, or a 4×4 matrix.
         gravity
             The acceleration of gravity in the base, m/s²; 9.81 along −z otherwise.
 
         Raises `DescriptionError` with all findings if a row has errors.
         """
         text = toml_of(rows, convention, name, parameters, base, tool, gravity)
-        return cls._of(Core.text(text, name))
+        return cls._of(_warned(Core.text(text, name)))
 
     @classmethod
     def from_toml(cls, text: str, *, name: str = "robot") -> Robot:
@@ -182,14 +183,14 @@ class Robot(Numbers, Derivations, Motions):
 
         Raises `DescriptionError` with all findings if it has errors.
         """
-        return cls._of(Core.text(text, name))
+        return cls._of(_warned(Core.text(text, name)))
 
     def chain(self, base: Optional[str] = None, tip: Optional[str] = None) -> Robot:
         """Another chain of the tree that this one was taken from; its file is read again.
 
         Raises `ChainError` if there is no such chain, or the robot is one chain.
         """
-        return Robot._of(self._core.chain(base, tip))
+        return Robot._of(_warned(self._core.chain(base, tip)))
 
     def set(self, **values: Union[str, float, int]) -> Robot:
         """The robot with values for its parameters: ``robot.set(D3=0.45)``, ``robot.set(D3="450 mm")``.
@@ -206,7 +207,7 @@ class Robot(Numbers, Derivations, Motions):
         >>> Robot("ur5").converted("craig").convention
         'craig'
         """
-        return Robot._of(self._core.converted(convention))
+        return Robot._of(_warned(self._core.converted(convention)))
 
     @property
     def name(self) -> str:
@@ -301,10 +302,25 @@ class Robot(Numbers, Derivations, Motions):
         return (_unpickled, (self.toml,))
 
 
+def _warned(core: Core) -> Core:
+    """The same, its warnings raised where the package was called."""
+    found = [finding for finding in findings_of(core.findings) if finding.severity == "warning"]
+    if found:
+        import sys
+        import warnings
+
+        level, frame = 1, sys._getframe()
+        while frame is not None and frame.f_globals.get("__name__", "").startswith("denavit."):
+            level, frame = level + 1, frame.f_back
+        for finding in found:
+            warnings.warn(finding.rendered, DescriptionWarning, stacklevel=level)
+    return core
+
+
 def _unpickled(text: str) -> Robot:
-    return Robot.from_toml(text)
+    return Robot._of(Core.text(text, "robot"))
 
 
 def _compiled(text: str, names: list[str], goal: str) -> Any:
-    robot = Robot.from_toml(text)
+    robot = _unpickled(text)
     return robot.compile("ik", goal=goal) if names == ["ik"] else robot.compile(names)

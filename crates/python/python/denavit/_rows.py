@@ -22,8 +22,8 @@ def toml_of(
     convention: str,
     name: str,
     parameters: Optional[Mapping[str, Any]],
-    base: Optional[Mapping[str, Any]],
-    tool: Optional[Mapping[str, Any]],
+    base: Any,
+    tool: Any,
     gravity: Optional[Sequence[Any]],
 ) -> str:
     """The robot file."""
@@ -42,8 +42,18 @@ def toml_of(
     for key, frame in (("base", base), ("tool", tool)):
         if frame is not None:
             lines.append(f"\n[{key}]")
-            lines += [f"{quoted(part)} = {value(x)}" for part, x in frame.items()]
+            lines += [f"{quoted(part)} = {value(x)}" for part, x in mounting(frame, key).items()]
     return "\n".join(lines) + "\n"
+
+
+def mounting(frame: Any, what: str) -> Mapping[str, Any]:
+    """A frame as a robot file has it: by its parts, or by its matrix."""
+    if isinstance(frame, Mapping):
+        return frame
+    rows = [list(row) for row in frame] if isinstance(frame, Iterable) and not isinstance(frame, str) else []
+    if [len(row) for row in rows] != [4] * 4:
+        raise UsageError(f"{what}: a mapping with xyz, rpy or matrix is needed, or a 4×4 matrix")
+    return {"matrix": rows}
 
 
 def cells(row: Any, convention: str, number: int) -> Mapping[str, Any]:

@@ -119,7 +119,10 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
 /// The determinant and where it is 0.
 pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, NoExercise> {
     let (s, words) = (&ground.setting, ground.words());
-    let found = s.singular().as_ref().map_err(|why| NoExercise::Singular(why.clone()))?;
+    let whole = s.singular().as_ref().map_err(|why| NoExercise::Singular(why.clone()))?;
+    // An arm whose body is nowhere singular may have a hand whose position is.
+    let point = if whole.common.is_empty() { whole.of_its_point(&s.description) } else { None };
+    let found = point.as_ref().unwrap_or(whole);
     if found.common.is_empty() {
         return Err(NoExercise::NeverSingular);
     }

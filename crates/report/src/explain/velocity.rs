@@ -37,8 +37,44 @@ pub fn singularities_document(
     let mut blocks = jacobian_document(description, &found.jacobian, language);
     blocks.push(paragraph(words.shortest()));
     blocks.push(Block::Heading(2, Line::new(words.determinant_title())));
-    blocks.extend(determinants(found, words));
+    blocks.extend(determinants(found, &Factor::named("J"), words));
     blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
+    blocks.extend(places(found, words));
+    if let Some(point) = found.of_its_point(description) {
+        blocks.extend(point_document(&point, words));
+    }
+    blocks.extend(rates(found, words));
+    blocks
+}
+
+/// The linear rows of a Jacobian.
+fn of_point() -> Factor {
+    Factor::Indexed("J", 'v')
+}
+
+/// The linear rows, their determinant, and where they are singular: that of the point at the body's origin, its orientation
+/// left aside.
+fn point_document(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+    let view = &found.jacobian.view;
+    let mut blocks = vec![
+        Block::Heading(2, Line::new(words.point_title())),
+        Block::Paragraph(words.point_alone(view.at, view.axes)),
+    ];
+    if let Ok(matrix) = &found.jacobian.matrix {
+        blocks.push(Block::Formula {
+            math: Math::Matrix(of_point(), matrix.rows().into_iter().take(3).collect()),
+            number: None,
+            proof: (found.jacobian.proof == Forward::Proved).then_some(Proof::Proved),
+        });
+    }
+    blocks.extend(determinants(found, &of_point(), words));
+    blocks.extend(places(found, words));
+    blocks
+}
+
+/// The singularities, each under a heading of its own.
+fn places(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = vec![];
     if found.common.is_empty() {
         blocks.push(paragraph(words.no_singularity(found.is_complete, found.minors.len() > 1)));
     }
@@ -49,7 +85,6 @@ pub fn singularities_document(
     if !found.is_complete {
         blocks.push(paragraph(words.besides()));
     }
-    blocks.extend(rates(found, words));
     blocks
 }
 
@@ -150,24 +185,30 @@ fn matrix(model: &JacobianModel, words: &dyn Wording) -> Vec<Block> {
     vec![Block::Paragraph(place), formula, paragraph(cost)]
 }
 
-fn determinants(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+/// The determinants of the largest square parts of this matrix; which part it is, unless it is the matrix itself.
+fn determinants(found: &Singularities, matrix: &Factor, words: &dyn Wording) -> Vec<Block> {
     let formula = |m: &Minor| Block::Formula {
-        math: Math::Determinant(Factor::named("J"), m.determinant.to_expr()),
+        math: Math::Determinant(matrix.clone(), m.determinant.to_expr()),
         number: None,
         proof: Some(Proof::Proved),
     };
-    if let [whole] = &found.minors[..] {
-        return vec![formula(whole)];
-    }
     let of_joints = |m: &Minor| m.rows.len() == found.rows.len();
+    let part = |m: &Minor| {
+        let rows: Vec<&str> = m.rows.iter().map(|&r| ROWS[r]).collect();
+        paragraph(match of_joints(m) {
+            true => words.minor_of_joints(&m.joints),
+            false => words.minor_of_rows(&rows),
+        })
+    };
+    if let [whole] = &found.minors[..] {
+        // Joints that do not move the body are in no part.
+        let shown = if of_joints(whole) { None } else { Some(part(whole)) };
+        return shown.into_iter().chain([formula(whole)]).collect();
+    }
     let has_surplus = found.minors.first().is_some_and(of_joints);
     let mut blocks = vec![paragraph(words.several_determinants(has_surplus, found.rows.len()))];
     for m in &found.minors {
-        let rows: Vec<&str> = m.rows.iter().map(|&r| ROWS[r]).collect();
-        blocks.push(paragraph(match of_joints(m) {
-            true => words.minor_of_joints(&m.joints),
-            false => words.minor_of_rows(&rows),
-        }));
+        blocks.push(part(m));
         blocks.push(formula(m));
     }
     blocks

@@ -142,6 +142,11 @@ impl Writer<'_> {
                 let name = of.map_or(name.clone(), |e| self.call(&name, &[self.expr(e)]));
                 if *inverse { self.inverse(&name) } else { name }
             }
+            Factor::Indexed(letter, index) => match self.style {
+                Style::Latex | Style::Typst => format!("{letter}_{index}"),
+                Style::MathMl => format!("<msub><mi>{letter}</mi><mi>{index}</mi></msub>"),
+                Style::Ascii | Style::Unicode => format!("{letter}{index}"),
+            },
             Factor::Frame { from, to } => self.frame(from, to),
             Factor::Rotation(axis, angle) => {
                 let angle = self.angle(*angle);

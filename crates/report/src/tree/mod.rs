@@ -191,6 +191,8 @@ pub enum Factor {
         /// Whether its inverse is meant.
         inverse: bool,
     },
+    /// A named matrix with a letter as its index: Jv.
+    Indexed(&'static str, char),
     /// The pose of a frame in another: T with both names.
     Frame {
         /// The frame it is seen from.
@@ -226,7 +228,9 @@ impl Factor {
             Factor::Rotation(axis, angle) => Factor::Rotation(axis, -angle),
             Factor::Translation(p) => Factor::Translation(p.map(|x| -x)),
             Factor::Inverse(of) => *of,
-            other @ (Factor::Constant(_) | Factor::Frame { .. }) => Factor::Inverse(Box::new(other)),
+            other @ (Factor::Constant(_) | Factor::Frame { .. } | Factor::Indexed(..)) => {
+                Factor::Inverse(Box::new(other))
+            }
         }
     }
 }

@@ -73,6 +73,12 @@ pub trait Velocity {
     /// That all determinants may be 0 at once besides.
     fn besides(&self) -> String;
 
+    /// The heading of what is said of the body's origin alone.
+    fn point_title(&self) -> String;
+
+    /// Which point, along which axes, and that its three rows are looked at without the body's orientation.
+    fn point_alone(&self, at: Reference, axes: Reference) -> Line;
+
     /// Where a factor is 0.
     fn zeros(&self, all: Vec<Math>) -> Line;
 

@@ -5,8 +5,9 @@ use denavit_check::{CheckOptions, Standing, check};
 use denavit_reading::document::Format;
 use denavit_report::{Document, ReportOptions, Topic, render, report};
 
-/// A chain without constants at its ends and one with them, links that begin with the twist, a slide, a base.
-const ROBOTS: [&str; 5] = ["planar-3r", "scara", "stanford", "spherical-wrist", "cartesian-ppp"];
+/// Hands whose body and whose point are singular elsewhere, a chain without constants at its ends and one with them, links that begin with the twist, a slide, a base.
+const ROBOTS: [&str; 7] =
+    ["planar-2r", "planar-3r", "articulated-3r", "scara", "stanford", "spherical-wrist", "cartesian-ppp"];
 
 /// The parts of a report that print formulas.
 const TOPICS: [Topic; 4] = [Topic::Links, Topic::Forward, Topic::Inverse, Topic::Velocity];

@@ -11,6 +11,25 @@ fn told(convention: Convention) -> TableOptions {
     TableOptions { convention: Some(convention), ..TableOptions::default() }
 }
 
+/// A rule of single dashes is one below the heading, and nowhere else.
+#[test]
+fn rules_of_single_dashes() {
+    let rows = "| 1 | 0 | 0 | q1 | 0 |\n| 2 | 90 deg | L1 | q2 | 0 |\n";
+    let head = "| j | alpha | a | theta | d |\n";
+    let [short, long] = ["|-|-|-|-|-|\n", "|:--|---|---|---|--:|\n"]
+        .map(|rule| table(&format!("{head}{rule}{rows}"), TableKind::Markdown, &told(Convention::Craig)));
+    assert_eq!(write_toml(&short), write_toml(&long));
+}
+
+/// An arm that cannot move is one that somebody forgot the variables of.
+#[test]
+fn that_nothing_moves_is_said() {
+    let text = "| j | alpha | a | theta | d |\n|---|---|---|---|---|\n| 1 | 0 | 0.3 | 30 deg | 0 |\n";
+    let (d, findings) = read_table(text, TableKind::Markdown, &told(Convention::Craig)).expect("a table");
+    assert!(d.variables().is_empty());
+    assert!(findings.iter().any(|f| f.message.contains("cannot move")), "{findings:?}");
+}
+
 #[track_caller]
 fn table(text: &str, kind: TableKind, options: &TableOptions) -> Description {
     read_table(text, kind, options).unwrap_or_else(|e| panic!("{}", render(&e, "table", text))).0

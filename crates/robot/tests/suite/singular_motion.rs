@@ -198,6 +198,34 @@ fn no_other_singularities_where_all_are_known() {
     assert!(known > 5 && never > 2, "{known} {never}");
 }
 
+/// What is said of a hand's origin beside its body: of arms with three joints at the most, and only what is not said of the body.
+/// There the three rows lose rank.
+#[test]
+fn the_point_is_looked_at_where_it_is_singular_elsewhere() {
+    let mut random = Random(8);
+    let mut looked_at = 0;
+    for d in arms(&mut random) {
+        let Ok(robot) = Robot::numeric(&d) else { continue };
+        let Ok(whole) = Singularities::derive(&d, Reference::Tool) else { continue };
+        let Some(point) = whole.of_its_point(&d) else { continue };
+        assert!(robot.joints <= 3 && point.rows == [0, 1, 2], "{}", d.name);
+        let size = robot.reach().max(1e-12);
+        for example in point.common.iter().flat_map(|s| &s.example) {
+            let linear: Vec<[f64; 6]> = motions(&robot, &example.q, size)
+                .iter()
+                .map(|c| std::array::from_fn(|k| if k < 3 { c[k] } else { 0.0 }))
+                .collect();
+            let moving = point.minors[0].joints.len();
+            let rank = svd(linear).values.iter().filter(|x| **x > 1e-6).count();
+            assert!(rank < moving, "{}: {rank} of {moving} at {:?}", d.name, example.q);
+            looked_at += 1;
+        }
+        let factors = |s: &Singularities| s.common.iter().map(|s| s.factor).collect::<Vec<_>>();
+        assert!(factors(&whole) != factors(&point) || whole.is_complete != point.is_complete, "{}", d.name);
+    }
+    assert!(looked_at > 5, "{looked_at}");
+}
+
 /// The anthropomorphic arm: the whole body is never held still by its three joints; its point is in three ways.
 #[test]
 fn the_anthropomorphic_arm() {

@@ -152,7 +152,9 @@ fn moving(d: &Description, numbers: &Robot<f64>, q: &[f64]) -> Vec<(&'static str
     let names = d.vocabulary();
     let print = |e: Expr| print(e, &names, Style::Ascii);
     let formulas = match Singularities::derive(d, Reference::Tool) {
-        Ok(found) => singular::Model::with_singularities(&d.name, &found, print),
+        Ok(found) => {
+            singular::Model::with_singularities(&d.name, &found, found.of_its_point(d).as_ref(), print)
+        }
         Err(why) => {
             let model = JacobianModel::shortest(d, Reference::Tool);
             let found = singular_configurations(d, &model.view, &[0, 1, 2, 3, 4, 5]);

@@ -65,8 +65,9 @@ pub fn document(
                 ));
             }
             let text = if format == Format::Json {
+                let point = found.of_its_point(description);
                 let of = |robot: &str, text: &dyn Fn(Expr) -> String| {
-                    Model::with_singularities(robot, &found, text)
+                    Model::with_singularities(robot, &found, point.as_ref(), text)
                 };
                 json(description, &found.jacobian, of)
             } else {

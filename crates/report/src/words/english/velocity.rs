@@ -79,6 +79,18 @@ impl Velocity for English {
         "Besides, the arm is singular where all of the determinants above are 0 at once.".into()
     }
 
+    fn point_title(&self) -> String {
+        "The position alone".into()
+    }
+
+    fn point_alone(&self, at: Reference, axes: Reference) -> Line {
+        let [at, axes] = [at, axes].map(|frame| self.of_frame(frame));
+        Line::new(format!(
+            "The body is looked at with its orientation above. The velocity of the origin {at} alone, along the axes {axes}, is \
+             that of three rows:"
+        ))
+    }
+
     fn zeros(&self, all: Vec<Math>) -> Line {
         let mut line = Line::new("where ");
         for (k, math) in all.into_iter().enumerate() {

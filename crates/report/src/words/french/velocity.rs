@@ -82,6 +82,18 @@ impl Velocity for French {
         say!("De plus, le bras est singulier là où tous les déterminants ci-dessus s'annulent à la fois.")
     }
 
+    fn point_title(&self) -> String {
+        "La position seule".into()
+    }
+
+    fn point_alone(&self, at: Reference, axes: Reference) -> Line {
+        let [at, axes] = [at, axes].map(|frame| self.of_frame(frame));
+        Line::new(say!(
+            "Ci-dessus, le corps est considéré avec son orientation. La vitesse de l'origine {at} seule, suivant les axes {axes}, \
+             est donnée par trois lignes :"
+        ))
+    }
+
     fn zeros(&self, all: Vec<Math>) -> Line {
         let mut line = Line::new("pour ");
         for (k, math) in all.into_iter().enumerate() {

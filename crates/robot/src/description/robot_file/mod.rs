@@ -130,6 +130,9 @@ impl Reader<'_> {
         let variables =
             rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
         let mut uses = parameters::Uses::of(&cells, &frame_cells);
+        if needs_joints && variables.iter().all(Option::is_none) {
+            rows::nothing_moves(cells.first().map_or(0..0, |c| c.span.clone()), &mut self.out);
+        }
         let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
         let rows = self.rows(drafts, &variables, &names);
         uses.others = rows.iter().flat_map(Row::mass_summands).collect();

@@ -102,7 +102,10 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
             Separator::Field(delimiter) => split_fields(text, span.clone(), delimiter),
             _ => split_pipes(text, span.clone()),
         };
-        let rule = cells.iter().all(is_rule);
+        // A single dash is a rule below a heading; elsewhere it may stand for an entry.
+        let is_below_heading = open && grids.last().is_some_and(|grid| grid.rows.len() == 1);
+        let least = if is_below_heading && separator == Separator::Pipe { 1 } else { 2 };
+        let rule = cells.iter().all(|cell| is_rule(cell, least));
         // `+---+-------+` above and below the rows of a frame of characters.
         if separator == Separator::Pipe && is_frame(line) {
             if let Some(grid) = grids.last_mut().filter(|_| open) {
@@ -421,11 +424,9 @@ fn is_frame(line: &str) -> bool {
         })
 }
 
-/// `---`, `:--:`
-fn is_rule(cell: &GridCell) -> bool {
-    !cell.text.is_empty()
-        && cell.text.chars().all(|c| matches!(c, '-' | ':' | '=' | '+'))
-        && cell.text.len() > 1
+/// `---`, `:--:`, of so many characters at least.
+fn is_rule(cell: &GridCell, least: usize) -> bool {
+    cell.text.len() >= least && cell.text.chars().all(|c| matches!(c, '-' | ':' | '=' | '+'))
 }
 
 /// The cells of a line with `|` between them.

@@ -146,6 +146,19 @@ impl Singularities {
         Self::of(description, JacobianModel::shortest_at_origin(description, body), &[0, 1, 2])
     }
 
+    /// Those of the origin of the body alone, where the arm has three joints at the most, these are all six rows' and the origin
+    /// gets stuck elsewhere than the body: what most people ask for of such an arm.
+    #[must_use]
+    pub fn of_its_point(&self, description: &Description) -> Option<Self> {
+        let body = self.jacobian.view.body;
+        if self.rows.len() < 6 || description.variables().len() > 3 {
+            return None;
+        }
+        let factors = |s: &Self| s.common.iter().map(|one| one.factor).collect::<Vec<_>>();
+        let point = Self::of_position(description, body).ok()?;
+        (factors(&point) != factors(self) || point.is_complete != self.is_complete).then_some(point)
+    }
+
     /// Those of some rows of a Jacobian.
     fn of(description: &Description, jacobian: JacobianModel, rows: &[usize]) -> Result<Self, Obstacle> {
         let matrix = jacobian.matrix.as_ref().map_err(|why| Obstacle::TooLarge(*why))?;
