@@ -103,7 +103,7 @@ def test_rows_that_are_wrong():
 
 
 def test_warnings_are_pythons_own():
-    with pytest.warns(DescriptionWarning, match="cannot move") as caught:
+    with pytest.warns(DescriptionWarning, match="no row holds a joint variable") as caught:
         Robot.from_dh([(0, 0, 1, 0)], convention="standard")
     assert caught[0].filename == __file__
     robot = Robot.from_dh([("q1", 0, 1, 0)], convention="standard", tool=np.eye(4))

@@ -30,15 +30,6 @@ impl Cell {
     }
 }
 
-/// Says that no row has a variable, where that is not the least of its faults.
-pub(super) fn nothing_moves(span: Range<usize>, out: &mut Diagnostics) {
-    if out.has_errors() {
-        return;
-    }
-    let finding = out.warning(span, "no row has a joint variable: this is an arm that cannot move");
-    finding.hint("the cell of a joint holds its variable: `q1`, or `q1 + 90 deg`");
-}
-
 /// The cells of a row.
 #[derive(Clone, Debug)]
 pub(super) struct Cells {

@@ -3,7 +3,7 @@
 use crate::common::{robot, shown};
 use denavit::description::{
     Convention, Description, JointKind, SameChain, TableKind, TableOptions, prove_same_chain, read_table,
-    render, write_toml,
+    read_toml, render, write_toml,
 };
 use denavit_symbolic::Expr;
 
@@ -21,13 +21,13 @@ fn rules_of_single_dashes() {
     assert_eq!(write_toml(&short), write_toml(&long));
 }
 
-/// An arm that cannot move is one that somebody forgot the variables of.
+/// An arm that cannot move is one that somebody forgot the variables of, in a robot file as well as in a table.
 #[test]
 fn that_nothing_moves_is_said() {
-    let text = "| j | alpha | a | theta | d |\n|---|---|---|---|---|\n| 1 | 0 | 0.3 | 30 deg | 0 |\n";
-    let (d, findings) = read_table(text, TableKind::Markdown, &told(Convention::Craig)).expect("a table");
+    let text = "convention = \"standard\"\n[[joints]]\ntheta = \"30 deg\"\na = 0.3\n";
+    let (d, findings) = read_toml(text).expect("a robot file");
     assert!(d.variables().is_empty());
-    assert!(findings.iter().any(|f| f.message.contains("cannot move")), "{findings:?}");
+    assert!(findings.iter().any(|f| f.message.contains("no row holds a joint variable")), "{findings:?}");
 }
 
 #[track_caller]

@@ -130,15 +130,17 @@ impl Reader<'_> {
         let variables =
             rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
         let mut uses = parameters::Uses::of(&cells, &frame_cells);
-        if needs_joints && variables.iter().all(Option::is_none) {
-            rows::nothing_moves(cells.first().map_or(0..0, |c| c.span.clone()), &mut self.out);
-        }
         let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
         let rows = self.rows(drafts, &variables, &names);
         uses.others = rows.iter().flat_map(Row::mass_summands).collect();
         let parameters = self.parameter_values(&declared, &uses);
         let poses = self.poses(fields.get("poses"), &kinds);
         let gravity = self.gravity(fields.get("gravity"), &names, kinds.len());
+        if needs_joints && kinds.is_empty() && !self.out.has_errors() {
+            let first = cells.first().map_or(0..0, |c| c.span.clone());
+            let finding = self.out.warning(first, "no row holds a joint variable: this is a fixed transform");
+            finding.hint("the cell of a joint holds its variable: `q1`, or `q1 + 90 deg`");
+        }
         Some(Description {
             name,
             source,

@@ -47,7 +47,6 @@ pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
 pub use write::{write_table, write_tree_table};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Severity};
-use super::rows::nothing_moves;
 use super::toolbox::{makes_robot, read_program};
 use super::{Convention, Described, Description, MAX_BYTES, MAX_ROWS, RowTree};
 use find::Grid;
@@ -142,9 +141,6 @@ pub fn read_table_robot(
             let around = Around::of(chosen, &layouts, text.len());
             read::description(text, chosen, &lines, &around, options, &mut out).map(|r| {
                 let read::Reading { description: d, after, .. } = r;
-                if d.variables().is_empty() && after.is_none() {
-                    nothing_moves(chosen[0].span.clone(), &mut out);
-                }
                 match after {
                     Some(after) => Described::Tree(Box::new(RowTree::of_rows(d, after))),
                     None => Described::Chain(Box::new(d)),
