@@ -30,7 +30,9 @@ pub(super) fn named_signs(plain: &str) -> Vec<(String, Expr)> {
     let told = |said: &[&str]| -> Vec<String> {
         let places = said.iter().flat_map(|said| plain.match_indices(said));
         let names = places.filter_map(|(at, said)| {
-            let goes_on = plain[at + said.len()..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
+            let rest = &plain[at + said.len()..];
+            let rest = rest.strip_prefix('.').unwrap_or(rest);
+            let goes_on = rest.starts_with(|c: char| c.is_ascii_digit());
             sign_before(&plain[..at]).filter(|_| !goes_on)
         });
         names.collect()

@@ -55,7 +55,7 @@ fn row(own: Groups, head: &Groups, last: &Groups) -> Option<Groups> {
     }
     let mut found = vec![];
     for (k, (cells, heads)) in own.into_iter().zip(head).enumerate() {
-        let is_number = |c: &(String, Range<usize>)| c.0.contains(|x: char| x.is_ascii_digit());
+        let has_digit = |c: &(String, Range<usize>)| c.0.contains(|x: char| x.is_ascii_digit());
         if cells.is_empty() && head.len() > 1 {
             // Said above, and not again.
             found.push(last.get(k)?.iter().map(|(text, span)| (text.clone(), span.end..span.end)).collect());
@@ -64,7 +64,7 @@ fn row(own: Groups, head: &Groups, last: &Groups) -> Option<Groups> {
         // Names may stand before the numbers of a row: `elbow up`.
         let extra = cells.len().checked_sub(heads.len())?;
         let (words, rest) = cells.split_at(extra);
-        if words.iter().any(is_number) {
+        if words.iter().any(has_digit) {
             return None;
         }
         let mut rest = rest.to_vec();
@@ -73,12 +73,21 @@ fn row(own: Groups, head: &Groups, last: &Groups) -> Option<Groups> {
         }
         found.push(rest);
     }
-    let numbers = found
-        .iter()
-        .flatten()
-        .filter(|c: &&(String, Range<usize>)| c.0.contains(|x: char| x.is_ascii_digit()))
-        .count();
-    (numbers >= 2).then_some(found)
+    // Among words a number makes no row.
+    let cells = || found.iter().flatten().map(|c: &(String, Range<usize>)| c.0.as_str());
+    let numbers = cells().filter(|c| is_number(c)).count();
+    (numbers >= 2 && 2 * numbers >= cells().count()).then_some(found)
+}
+
+/// True for what begins as a number does, behind a name at the most: `3.5`, `-90°`, `$-1$`, `a 12`.
+fn is_number(cell: &str) -> bool {
+    let last = cell
+        .rsplit(' ')
+        .next()
+        .unwrap_or(cell)
+        .trim_start_matches(['$', '(', '[', '+', '-', '−', '~', '≈', '*']);
+    let with_point = last.strip_prefix(['.', ',']).unwrap_or(last);
+    with_point.starts_with(|c: char| c.is_ascii_digit()) || cell.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// The words of a line, group by group between bars; a unit behind a number is part of it.

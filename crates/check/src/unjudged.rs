@@ -105,10 +105,28 @@ fn why(walked: &Walked, statement: &Statement) -> Skipped {
 /// True for a statement that names a matrix which a claim further down uses.
 fn is_named(text: &str, walked: &Walked, span: &Range<usize>, claims: &[Claim]) -> bool {
     let names = walked.named.iter().filter(|n| n.0 == *span);
-    names.into_iter().any(|(_, name)| {
+    let is_used = |name: &str| {
         let later = claims.iter().filter(|c| c.span.start >= span.end);
         later.into_iter().any(|c| mentions(text.get(c.span.clone()).unwrap_or_default(), name))
-    })
+    };
+    let shown = text.get(span.clone()).unwrap_or_default();
+    names.into_iter().any(|(_, name)| is_used(name))
+        || entries_of_names(shown).is_some_and(|all| all.iter().any(|e| is_used(e)))
+}
+
+/// The entries of a printed matrix that gives names to entries and says nothing else: `U = [n_x o_x …]`, each name once.
+fn entries_of_names(shown: &str) -> Option<Vec<String>> {
+    let (_, inner) = shown.split_once("matrix}")?;
+    let (inner, _) = inner.split_once("\\end")?;
+    let cells: Vec<&str> = inner.split("\\\\").flat_map(|row| row.split('&')).map(str::trim).collect();
+    let is_number = |c: &&&str| c.chars().all(|x| x.is_ascii_digit());
+    let names: Vec<String> =
+        cells.iter().filter(|c| !is_number(c)).map(|c| super::custom::plain(c)).collect();
+    let is_name = |n: &String| {
+        n.starts_with(char::is_alphabetic) && n.chars().all(char::is_alphanumeric) && n.chars().count() <= 4
+    };
+    let is_new = |k: usize| !names[..k].contains(&names[k]);
+    (names.len() >= 4 && names.iter().all(is_name) && (0..names.len()).all(is_new)).then_some(names)
 }
 
 /// The names that a formula, or several, are written in.

@@ -85,7 +85,14 @@ pub fn proof(
             }
             continue;
         }
-        identities.extend(order.into_iter().take(2).find_map(proof)?);
+        let whole = order.iter().take(2).find_map(|&k| proof(k));
+        let found = whole.or_else(|| {
+            let [of] = of else { return None };
+            let all: Vec<Expr> = order.iter().filter_map(|&k| Some(chosen(values[k].as_ref()?[0]))).collect();
+            let is_plain = conditional.iter().all(|all| all.is_empty());
+            roots.either_is(of, &all, &positive).filter(|_| is_plain)
+        });
+        identities.extend(found?);
     }
     Some(identities)
 }
@@ -208,6 +215,21 @@ impl Roots {
         let ([re, im], squares) = direction(value - of.formula)?;
         let zero = Expr::int(0);
         (equal(im, zero).is_equal() && self.is_direction(re, &squares, positive)).then_some([im, zero])
+    }
+
+    /// The identities that prove that one of two values is the unknown: both give its direction or the opposite one, and never the
+    /// same, as `atan2(y, x)` and `atan2(-y, -x)`.
+    fn either_is(&self, of: &Unknown, values: &[Expr], positive: &[Expr]) -> Option<Vec<[Expr; 2]>> {
+        let zero = Expr::int(0);
+        let along = |&v: &Expr| -> Option<[Expr; 2]> {
+            let ([re, im], _) = direction(v - of.formula)?;
+            equal(im, zero).is_equal().then_some([re, im])
+        };
+        let all: Vec<[Expr; 2]> = values.iter().filter_map(along).filter(|_| of.is_angle).take(4).collect();
+        let pairs = || (1..all.len()).flat_map(|k| all[..k].iter().map(move |a| (a, k)));
+        let opposite = |(a, k): &(&[Expr; 2], usize)| self.is_direction(-(a[0] * all[*k][0]), &[], positive);
+        let (a, k) = pairs().find(opposite)?;
+        Some(vec![[a[1], zero], [all[k][1], zero]])
     }
 
     /// True if a real number is proved to be positive, where `positive` are.

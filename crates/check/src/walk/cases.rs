@@ -257,7 +257,8 @@ impl Walk<'_> {
             && is_constant
             && !is_number
             && !left.value().symbols().is_empty()
-            && (!is_entry || !denavit_symbolic::equal(left.value(), right.value()).is_equal())
+            // What holds everywhere is no condition: it is said of the robot.
+            && !denavit_symbolic::equal(left.value(), right.value()).is_equal()
     }
 
     /// True for an entry of the pose that a sentence gives a value in which no joint occurs: `with px = 0.6, pz = d1`.

@@ -4,6 +4,7 @@ use super::Walk;
 use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::names::Name;
+use crate::numbers::Configuration;
 use denavit::forward::Reference;
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::plain_name;
@@ -45,8 +46,10 @@ impl Walk<'_> {
             let minor = self.told_minor(whole).filter(is_square);
             return minor.map_or_else(|| self.subject.determinant(told.part), |m| m.determinant());
         }
-        // Numbers are what the author makes of it, and may be wrong.
-        let is_known = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
+        // Numbers are what the author makes of it, and may be wrong, unless they are the arm's.
+        let is_right = || self.lexis.defined(&name).is_some_and(|m| self.is_own_jacobian(m, &told));
+        let is_formula = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
+        let is_known = |m: &Matrix| is_formula(m) || is_right();
         let (printed, is_numeric) = match printed {
             Some(m) if !is_known(&m) => (None, true),
             printed => (printed, false),
@@ -63,6 +66,16 @@ impl Walk<'_> {
         let is_open = printed.is_none() && !is_numeric && self.is_printed(&name, span.start);
         let by_nature = || if is_open { None } else { self.subject.determinant(told.part) };
         printed.and_then(|m| m.determinant()).or_else(by_nature)
+    }
+
+    /// True for one of the arm's Jacobians, entry by entry, at every configuration.
+    fn is_own_jacobian(&self, printed: &Matrix, told: &crate::jacobians::Told) -> bool {
+        let nearest = self.subject.nearest_jacobian(printed, told, &Configuration::default());
+        let Some((own, _)) = nearest.filter(|(own, _)| own.shape() == printed.shape()) else { return false };
+        own.0.iter().flatten().zip(printed.0.iter().flatten()).all(|(a, b)| match (a, b) {
+            (Some(a), Some(b)) => denavit_symbolic::equal(*a, *b).is_equal(),
+            _ => false,
+        })
     }
 
     /// True if no other matrix than a Jacobian was printed last.

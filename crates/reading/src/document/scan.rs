@@ -143,7 +143,7 @@ impl<'t> Scanner<'_, 't> {
         {
             let heading = trimmed(text, span);
             let start = heading.start + level;
-            self.headed(trimmed(text, &(start..heading.end)));
+            self.headed(trimmed(text, &(start..heading.end)), limit);
             return Some(next);
         }
         let under = cut(text, &following).trim();
@@ -161,16 +161,21 @@ impl<'t> Scanner<'_, 't> {
             return Some(drawn::table(self.reader, span.start, limit, manner));
         }
         if is_rule(under) && !shown.contains(['$', '`', '=']) {
-            self.headed(trimmed(text, span));
+            self.headed(trimmed(text, span), limit);
             return Some(next);
         }
         // `[name]: https://…`
         (shown.starts_with('[') && shown.contains("]: ")).then_some(next)
     }
 
-    fn headed(&mut self, span: Range<usize>) {
-        self.reader.heading = Some(span);
+    /// A heading, with the formulas in it.
+    fn headed(&mut self, span: Range<usize>, limit: usize) {
         (self.reader.prose, self.reader.label) = (None, None);
+        self.reader.heading = Some(span.clone());
+        if cut(self.text(), &span).contains('$') {
+            self.line(span.clone(), span.end, limit);
+            (self.reader.prose, self.reader.label) = (None, None);
+        }
     }
 
     /// A fence whose first line was read.
@@ -226,7 +231,7 @@ impl<'t> Scanner<'_, 't> {
                 let end = trimmed(text, span).end;
                 let inner = end - rest.len() + 1..end;
                 let close = closing(cut(text, &inner)).map_or(inner.end, |i| inner.start + i);
-                self.headed(inner.start..close);
+                self.headed(inner.start..close, limit);
                 // `\paragraph{Position.} Given $o$ …`: the text begins on its line.
                 let rest = (close + 1).min(end)..end;
                 let is_label = cut(text, &rest).trim_start().starts_with("\\label");

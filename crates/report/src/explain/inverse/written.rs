@@ -1,7 +1,7 @@
 //! An explanation as a document.
 
 use super::Explanation;
-use crate::document::{Block, Branch, Factor, Line, Math};
+use crate::document::{Block, Branch, Factor, Line, Math, Sign};
 use crate::explained::{Explained, Statement};
 use crate::words::{Coefficients, Given, Wording};
 use denavit_symbolic::print::{Style, print};
@@ -54,7 +54,7 @@ pub fn formulas(e: &Explanation, words: &dyn Wording) -> Vec<Block> {
     }
     let mut line = Line::default();
     for s in e.steps.iter().filter_map(|s| s.sign) {
-        line = line.math(s).text(" = ±1, ");
+        line = line.math(Math::relation(s, Sign::EitherSign, Expr::int(1))).text(", ");
     }
     let (count, legend) = (words.solutions_found(e.solutions), words.legend(e.proof()));
     blocks.push(Block::Paragraph(line.text(format!("{count}. {legend}"))));
@@ -63,10 +63,9 @@ pub fn formulas(e: &Explanation, words: &dyn Wording) -> Vec<Block> {
 
 /// The unknown of a step, with what it stands for.
 fn unknown(s: &Explained) -> Line {
-    let line = Line::default().math(s.unknown);
     match s.meaning {
-        Some(meaning) => line.text(" = ").math(meaning),
-        None => line,
+        Some(meaning) => Line::default().math(Math::equation(s.unknown, meaning)),
+        None => Line::default().math(s.unknown),
     }
 }
 

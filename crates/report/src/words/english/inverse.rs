@@ -2,7 +2,7 @@
 
 use super::{English, counted};
 use crate::explained::{Bound, Case, Component, Consequence, Kind, Remark, Source};
-use crate::tree::{Line, Math, Proof};
+use crate::tree::{Line, Math, Proof, Sign};
 use crate::words::{Coefficients, Given, Inverse, Terms};
 use denavit::inverse::derivation::{Elimination, NotGiven};
 use denavit::inverse::{Doubt, Goal, Label, Obstacle, Stuck, Task, Unsuitable};
@@ -232,7 +232,7 @@ impl Inverse for English {
     fn step_remark(&self, sign: Option<(Expr, Option<Label>)>, remark: Remark, used_by: &[usize]) -> Line {
         let mut line = Line::default();
         if let Some((sign, label)) = sign {
-            line = line.math(sign).text(" = ±1");
+            line = line.math(Math::relation(sign, Sign::EitherSign, Expr::int(1)));
             if let Some(label) = label.map(|l| self.label(l)) {
                 line = line.text(format!(": {label}+ and {label}−"));
             }
