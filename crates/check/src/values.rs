@@ -143,7 +143,13 @@ impl Judge<'_> {
                     false => self.never_own(own, values, sides).unwrap_or(finding),
                 };
             }
-            let identities = judgement.identities.clone();
+            let identities = match finding {
+                // By the sine's and the cosine's own formulas.
+                Finding::Equal { .. } if judgement.verdict != Verdict::Right => {
+                    vec![[values.branches[0][0], own]]
+                }
+                _ => judgement.identities.clone(),
+            };
             if let (Standing::Wrong, [(span, syntax)]) = (finding.standing(), &sides[..])
                 && let Finding::Wrong(wrong) = &mut finding
                 && let Some(slip) = self.slip(&mut inverse, own, span, syntax, &taken)

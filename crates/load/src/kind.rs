@@ -7,12 +7,12 @@ use std::path::Path;
 
 /// The endings of files of bodies and joints, and those of others that are known.
 const TREES: [&str; 4] = ["urdf", "xacro", "xml", "mjcf"];
-const OTHERS: [&str; 10] = ["toml", "md", "markdown", "txt", "csv", "tsv", "tex", "par", "m", "py"];
+const OTHERS: [&str; 11] = ["toml", "md", "markdown", "txt", "typ", "csv", "tsv", "tex", "par", "m", "py"];
 /// How much of a file is looked at for its root element.
 const HEAD: usize = 1 << 16;
 
 /// Which endings files have, in words.
-pub const ENDINGS: &str = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv or .tex, a program in .m or .py";
+pub const ENDINGS: &str = "a robot file ends in .toml, .urdf, .xacro, .xml, .mjcf or .par, a table in .md, .txt, .csv, .tsv, .tex or .typ, a program in .m or .py";
 
 /// What a file holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,7 +36,7 @@ impl Kind {
         match Path::new(name).extension().and_then(|e| e.to_str()) {
             _ if name == "-" => Some(of_text(&head(name))),
             Some("toml") => Some(Kind::Robot),
-            Some("md" | "markdown" | "txt") => Some(Kind::Table(TableKind::Markdown)),
+            Some("md" | "markdown" | "txt" | "typ") => Some(Kind::Table(TableKind::Markdown)),
             Some("csv" | "tsv") => Some(Kind::Table(TableKind::Csv)),
             Some("tex") => Some(Kind::Table(TableKind::Latex)),
             _ if is_tree(name) => Some(Kind::Bodies),

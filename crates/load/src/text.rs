@@ -1,16 +1,18 @@
 //! The bytes of files and of standard input.
 
 use denavit::description::MAX_XML_BYTES;
+use denavit_reading::document::readable;
 use std::fs::File;
 use std::io::{self, Read};
 use std::sync::OnceLock;
 
-/// The text of a file or of standard input (`-`), bounded (one byte more says that there are more), whatever its bytes are.
+/// The text of a file or of standard input (`-`), bounded (one byte more says that there are more), whatever its bytes are; a document
+/// of Typst as it is read.
 ///
 /// # Errors
 /// If it cannot be read.
 pub fn contents(name: &str, most: usize) -> io::Result<String> {
-    Ok(String::from_utf8_lossy(&bytes(name, most)?).into_owned())
+    Ok(readable(name, String::from_utf8_lossy(&bytes(name, most)?).into_owned()))
 }
 
 /// The bytes of a file or of standard input (`-`), at most one more than `most`.

@@ -3,6 +3,7 @@
 use crate::formulas::{judged_as, tongue};
 use crate::trouble::{Kind, Trouble};
 use denavit::description::Description;
+use denavit_reading::document::readable;
 use denavit_report::{Exercise, ExerciseOptions, NoExercise, exercise, render};
 
 /// What a sheet is made from: its kind, seed, count and language.
@@ -56,6 +57,7 @@ pub fn marked(
     name: &str,
 ) -> Result<(String, String), Trouble> {
     let made = made(d, request)?;
+    let text = &readable(name, text.to_string());
     let checked = judged_as(text, name, Some(&made.robot))?;
     let marked = denavit_wire::exercise::Marked::of(&made.rubric, &made.rubric.mark(text, &checked));
     Ok((

@@ -10,7 +10,7 @@ use denavit::velocity::{JacobianModel, Obstacle, Singularities, singular_configu
 use denavit_check::{CheckOptions, Checked, check as judged};
 use denavit_emit::{Language, Precision};
 use denavit_generate::{PackageOptions, Wanted};
-use denavit_reading::document::Format;
+use denavit_reading::document::{Format, readable};
 use denavit_report::document::{Block, plain, text};
 use denavit_report::explain::{
     Explanation, dynamics_explanation, found_singularities_document, recursion_vocabulary,
@@ -241,6 +241,7 @@ pub fn judged_as(text: &str, name: &str, d: Option<&Description>) -> Result<Chec
 /// # Errors
 /// If it cannot be read.
 pub fn checked(text: &str, name: &str, d: Option<&Description>) -> Result<String, Trouble> {
+    let text = &readable(name, text.to_string());
     let judged = judged_as(text, name, d)?;
     Ok(denavit_wire::text(&denavit_wire::check::Checked::of(name, text, &judged)))
 }

@@ -3,7 +3,7 @@
 use crate::refusal::Refusal;
 use crate::subject::Subject;
 use denavit_check::check as checked;
-use denavit_reading::document::Format;
+use denavit_reading::document::{Format, readable};
 use denavit_report::words::Tongue;
 use denavit_wire::check::Checked;
 
@@ -12,6 +12,7 @@ use denavit_wire::check::Checked;
 /// # Errors
 /// If the text cannot be read.
 pub fn check(subject: &Subject, text: &str, name: &str) -> Result<Checked, Refusal> {
+    let text = &readable(name, text.to_string());
     let format = Format::of(name, text);
     match checked(text, format, Some(&subject.description), &denavit_check::CheckOptions::default()) {
         Ok(found) => Ok(Checked::of(name, text, &found)),

@@ -1,10 +1,9 @@
 //! Determinants of Jacobians: of a printed one, of rows or joints that words name, or of the one that the arm has by nature.
 
-use super::Walk;
+use super::{Assertion, Piece, Walk};
 use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::names::Name;
-use crate::numbers::Configuration;
 use denavit::forward::Reference;
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::plain_name;
@@ -47,9 +46,8 @@ impl Walk<'_> {
             return minor.map_or_else(|| self.subject.determinant(told.part), |m| m.determinant());
         }
         // Numbers are what the author makes of it, and may be wrong, unless they are the arm's.
-        let is_right = || self.lexis.defined(&name).is_some_and(|m| self.is_own_jacobian(m, &told));
         let is_formula = |m: &Matrix| m.0.iter().flatten().flatten().any(|e| !e.symbols().is_empty());
-        let is_known = |m: &Matrix| is_formula(m) || is_right();
+        let is_known = |m: &Matrix| is_formula(m) || self.is_right(&name);
         let (printed, is_numeric) = match printed {
             Some(m) if !is_known(&m) => (None, true),
             printed => (printed, false),
@@ -68,14 +66,20 @@ impl Walk<'_> {
         printed.and_then(|m| m.determinant()).or_else(by_nature)
     }
 
-    /// True for one of the arm's Jacobians, entry by entry, at every configuration.
-    fn is_own_jacobian(&self, printed: &Matrix, told: &crate::jacobians::Told) -> bool {
-        let nearest = self.subject.nearest_jacobian(printed, told, &Configuration::default());
-        let Some((own, _)) = nearest.filter(|(own, _)| own.shape() == printed.shape()) else { return false };
-        own.0.iter().flatten().zip(printed.0.iter().flatten()).all(|(a, b)| match (a, b) {
-            (Some(a), Some(b)) => denavit_symbolic::equal(*a, *b).is_equal(),
-            _ => false,
-        })
+    /// True if the Jacobian of this name that was printed last is the arm's, entry by entry.
+    fn is_right(&self, name: &Name) -> bool {
+        let is_it = |a: &&Assertion| {
+            matches!(&a.about, About::Matrix(Meaning::Jacobian(_)))
+                && self.lexis.lone_name(&a.name, &(0..a.name.len())).is_some_and(|n| n.key() == name.key())
+        };
+        let same = |a: Expr, b: Expr| denavit_symbolic::equal(a, b).is_equal();
+        let holds = |p: &Piece| match p {
+            Piece::Pair(pair) => same(pair.value, pair.wanted),
+            Piece::Number { answer, .. } => answer.constant.is_some_and(|c| same(c, answer.wanted)),
+            Piece::Unreadable { .. } => false,
+        };
+        let last = self.assertions.iter().rev().find(is_it);
+        last.is_some_and(|a| !a.pieces.is_empty() && a.pieces.iter().all(holds))
     }
 
     /// True if no other matrix than a Jacobian was printed last.

@@ -222,6 +222,14 @@ impl Walk<'_> {
     /// there is more to judge.
     fn number_at_goal(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
         let [first, middle @ .., Scalar::Formula(span, number)] = read else { return false };
+        // That a helper vanishes is a condition: `p_z = 0 and X = 0`.
+        let is_helper = |span: &Range<usize>| {
+            let plain = crate::custom::plain(self.source(span));
+            self.defined.iter().any(|d| crate::custom::plain(&d.name) == plain)
+        };
+        if matches!(first, Scalar::Formula(name, _) if number.value().is_zero() && is_helper(name)) {
+            return false;
+        }
         let joints = self.subject.joints();
         let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
         let is_known = |e: Expr| {

@@ -24,7 +24,7 @@ pub use view::ViewArguments;
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
 ///
 /// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a model of MuJoCo
-/// (.xml, .mjcf), a .par file of SYMORO, a table as it stands in a document (.md, .txt, .csv, .tsv, .tex), or a program that
+/// (.xml, .mjcf), a .par file of SYMORO, a table as it stands in a document (.md, .txt, .csv, .tsv, .tex, .typ), or a program that
 /// makes a robot with a toolbox (.m, .py: Link, SerialLink, DHRobot, dhparams).
 /// Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not supported, 5 gave up.
 #[derive(Parser)]
@@ -84,7 +84,7 @@ pub struct RobotsArguments {
 /// The robot that a command is about.
 #[derive(Args)]
 pub struct RobotArguments {
-    /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex) or program that makes a robot
+    /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex, .typ) or program that makes a robot
     /// (.m, .py); - reads a robot file, URDF, MJCF or table from standard input
     pub robot: String,
     /// Give a parameter a value, as in `--set D3=450mm` (can be repeated)
@@ -261,7 +261,7 @@ pub struct CheckArguments {
     /// The robot, or a task: a rubric that names its robot; may be left out where the document holds its table
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The document (.md, .tex, .txt, .toml, .py, .m); several, or a folder, are those of a class
+    /// The document (.md, .tex, .typ, .txt, .toml, .py, .m); several, or a folder, are those of a class
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry

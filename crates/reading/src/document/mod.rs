@@ -187,12 +187,19 @@ pub fn read(text: &str, format: Format) -> Document {
     reader.finish(format)
 }
 
+/// The text of a document as it is read, places in it being those that are told: a document of Typst is one of Markdown.
+pub fn readable(file_name: &str, text: String) -> String {
+    let is_typst = file_name.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("typ"));
+    if is_typst { crate::typst::markdown(&text) } else { text }
+}
+
 impl Format {
     /// By the file's ending, or else by what the text looks like.
     pub fn of(file_name: &str, text: &str) -> Format {
         let ending = file_name.rsplit_once('.').map_or("", |(_, e)| e).to_ascii_lowercase();
         match ending.as_str() {
-            "md" | "markdown" | "mdx" | "qmd" | "rmd" | "mkd" => return Format::Markdown,
+            // What is read of Typst is Markdown: see [`readable`].
+            "md" | "markdown" | "mdx" | "qmd" | "rmd" | "mkd" | "typ" => return Format::Markdown,
             "tex" | "latex" | "ltx" => return Format::Latex,
             "toml" => return Format::Toml,
             _ => {}

@@ -3,3 +3,4 @@
 mod code;
 mod document;
 mod slip;
+mod typst;

@@ -100,8 +100,8 @@ pub trait Inverse {
     /// The heading of the branches.
     fn solutions_title(&self, solutions: usize) -> String;
 
-    /// The number of solutions as a product of those of the steps; the branches follow.
-    fn solutions_product(&self, product: &str, solutions: usize) -> String;
+    /// The number of branches as a product of those of the steps; the branches follow.
+    fn solutions_product(&self, product: &str) -> String;
 
     /// Why no solution is lost or added, and how types are numbered.
     fn solutions_remark(&self) -> String;

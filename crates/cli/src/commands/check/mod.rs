@@ -18,7 +18,7 @@ use denavit::description::{Diagnostic, Severity, line_column, render};
 use denavit_check::{CheckOptions, Checked, MAX_BYTES, Note, check};
 use denavit_load::Kind;
 use denavit_reading::code::Dialect;
-use denavit_reading::document::Format;
+use denavit_reading::document::{Format, readable};
 use rubric::Task;
 use std::fs;
 use std::io::{self, Write};
@@ -251,7 +251,8 @@ fn verdict(document: &Document) -> Result<(), Failure> {
 fn contents(name: &str) -> Result<String, Failure> {
     let bytes =
         denavit_load::bytes(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    decoded(&bytes).ok_or_else(|| Failure::Input(format!("error: {name}: this is not a text")))
+    let text = decoded(&bytes).ok_or_else(|| Failure::Input(format!("error: {name}: this is not a text")))?;
+    Ok(readable(name, text))
 }
 
 /// The text of bytes: UTF-8, or UTF-16 where they begin with its mark; nothing of what is no text, a PDF for one.

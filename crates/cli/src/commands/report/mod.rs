@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::load;
 use denavit::description::Description;
 use denavit_check::{Checked, check};
-use denavit_reading::document::Format;
+use denavit_reading::document::{Format, readable};
 use denavit_report::{Document, Errata, ReportOptions, Topic, render, report};
 use std::fs;
 use std::io::Write;
@@ -86,7 +86,7 @@ fn checked(
         return Ok(None);
     }
     let text = fs::read(name).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    let text = String::from_utf8_lossy(&text).into_owned();
+    let text = readable(name, String::from_utf8_lossy(&text).into_owned());
     let options =
         denavit_check::CheckOptions { table: load::table_options(&arguments.robot), ..Default::default() };
     // What the reader of tables took is there; what cannot be read beside it is no part of the report.

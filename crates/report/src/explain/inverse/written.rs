@@ -196,7 +196,7 @@ fn solved(e: &Explanation, count: usize, words: &dyn Wording, blocks: &mut Vec<B
     let factors: Vec<String> =
         e.steps.iter().filter(|s| s.values > 1).map(|s| s.values.to_string()).collect();
     if factors.len() > 1 {
-        let product = words.solutions_product(&factors.join(" · "), count);
+        let product = words.solutions_product(&factors.join(" · "));
         blocks.push(Block::Paragraph(Line::new(product)));
     }
     if count > 1 && count <= DRAWN {

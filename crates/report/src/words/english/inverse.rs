@@ -277,8 +277,8 @@ impl Inverse for English {
         }
     }
 
-    fn solutions_product(&self, product: &str, solutions: usize) -> String {
-        format!("{product} = {solutions}:")
+    fn solutions_product(&self, product: &str) -> String {
+        format!("{product} branches:")
     }
 
     fn solutions_remark(&self) -> String {

@@ -284,8 +284,8 @@ impl Inverse for French {
         }
     }
 
-    fn solutions_product(&self, product: &str, solutions: usize) -> String {
-        say!("{product} = {solutions} :")
+    fn solutions_product(&self, product: &str) -> String {
+        say!("{product} branches :")
     }
 
     fn solutions_remark(&self) -> String {
