@@ -265,7 +265,7 @@ fn claim(function: DynamicFunction, all: &DynamicPrograms, made: &DynamicProgram
     let equal = |to: &str, ground: Ground| match ground {
         Ground::Proved => format!("proved equal to {to}"),
         Ground::Modulo(states) => {
-            format!("equal to {to} at {states} random states modulo 2^61 - 1, exactly; not proved")
+            format!("equal to {to} at {states} random states modulo a prime of 61 bits, exactly; not proved")
         }
         Ground::Numbers(states, off) => {
             format!("equal to {to} in {states} random states within {off:.0e}; not proved")

@@ -1,15 +1,29 @@
-//! Integers modulo the prime 2⁶¹ − 1, with angles as points of the circle modulo it.
+//! Integers modulo a prime, with angles as points of the circle modulo it.
 //!
 //! A polynomial in lengths, sines and cosines takes a value there that is its own modulo the prime, at points of one's choice.
-//! What differs there differs; a rank there is no larger than the rank.
+//! What differs there differs; a rank there is no larger than the rank. Constants keep what holds between them: of the prime −1 is
+//! no square, but small primes are, so that the root which is a square itself is the same for √2·√3 as for √6; constant angles are
+//! powers of one element of the circle for 1/[`PARTS`] of a turn, whose sines and cosines are those roots where they are roots
+//! (cos 45° = √2/2, cos 36° = (1 + √5)/4), and powers of another, with which nothing has to do, for radians.
 
 use super::Domain;
 use denavit_symbolic::Rational;
 
-/// The prime.
-const P: u64 = (1 << 61) - 1;
+/// The prime, 213500357 · [`PARTS`] − 1.
+const P: u64 = 2_305_803_855_599_999_999;
+/// The order of the circle.
+const ORDER: u64 = P + 1;
+/// Parts of a turn that have a sine and a cosine: 2¹⁰·3³·5⁸.
+const PARTS: i64 = 10_800_000_000;
+/// Sine and cosine of one of them: of those of that order one with √2 = 2 cos 45°, √3 = 2 cos 30°, √5 = 4 cos 36° − 1,
+/// √(10 − 2√5) = 4 sin 36° and sin 90° = 1.
+const PART: (u64, u64) = (757_097_694_285_513_000, 698_530_410_534_215_526);
+/// What makes the point for one of [`RADIANS`] parts of a radian ([`point`]): any number, as e^{i/n} is transcendental.
+const RADIAN: u64 = 1_873_456_789_012_345_678;
+/// Parts of a radian that have a sine and a cosine.
+const RADIANS: u128 = 9 * 10_u128.pow(30);
 
-/// A number modulo 2⁶¹ − 1; what has none, such as a division by 0, is undefined.
+/// A number modulo the prime; what has none, such as a division by 0, is undefined.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Residue {
     value: Option<u64>,
@@ -22,9 +36,7 @@ pub struct Residue {
 }
 
 fn times(a: u64, b: u64) -> u64 {
-    let product = u128::from(a) * u128::from(b);
-    let folded = (product & u128::from(P)) as u64 + (product >> 61) as u64;
-    if folded >= P { folded - P } else { folded }
+    (u128::from(a) * u128::from(b) % u128::from(P)) as u64
 }
 
 fn plus(a: u64, b: u64) -> u64 {
@@ -58,6 +70,74 @@ fn turned((s, c): (u64, u64), (t, d): (u64, u64)) -> (u64, u64) {
     (plus(times(s, d), times(c, t)), plus(times(c, d), minus(times(s, t))))
 }
 
+/// The sine and cosine of so many times an angle.
+fn repeated(mut angle: (u64, u64), mut times: u64) -> (u64, u64) {
+    let mut result = (0, 1);
+    while times > 0 {
+        if times & 1 == 1 {
+            result = turned(result, angle);
+        }
+        angle = turned(angle, angle);
+        times >>= 1;
+    }
+    result
+}
+
+/// The point (2t, 1 − t²)/(1 + t²) of the circle; 1 + t² is not 0.
+fn point(t: u64) -> Option<(u64, u64)> {
+    let square = times(t, t);
+    let over = inverse(plus(1, square))?;
+    Some((times(plus(t, t), over), times(plus(1, minus(square)), over)))
+}
+
+/// An integer by its decimal digits, modulo another.
+fn modulo(digits: &str, by: u64) -> u64 {
+    let next =
+        |n: u64, digit: u8| (u128::from(n) * 10 + u128::from(digit - b'0')).rem_euclid(u128::from(by)) as u64;
+    digits.bytes().fold(0, next)
+}
+
+/// Sine and cosine of a number of radians; nothing if that is no multiple of what has them.
+fn of_radians(n: &Rational) -> Option<(u64, u64)> {
+    let (over, under) = n.abs().digits();
+    let under: u128 = under.parse().ok()?;
+    let each = (RADIANS % under == 0).then_some(RADIANS / under)? % u128::from(ORDER);
+    let count = u128::from(modulo(&over, ORDER)) * each % u128::from(ORDER);
+    let (s, c) = repeated(point(RADIAN)?, count as u64);
+    Some((if n.is_negative() { minus(s) } else { s }, c))
+}
+
+/// The root that is a square itself; nothing for what has no root.
+fn root(a: u64) -> Option<u64> {
+    // The prime is 3 modulo 4.
+    let root = power(a, P.div_ceil(4));
+    (times(root, root) == a).then_some(root)
+}
+
+/// The largest prime that is looked for as a square in what a root is of.
+const DIVISOR: u64 = 1000;
+
+/// The root of a number as a product of roots of primes.
+fn root_of_number(n: &Rational) -> Option<u64> {
+    let (over, under) = n.to_parts()?;
+    let (over, under) = (u64::try_from(over).ok()?, u64::try_from(under).ok()?);
+    let mut rest = over.checked_mul(under)?;
+    let mut all = inverse(under % P)?;
+    for p in 2..=DIVISOR {
+        while rest > 0 && rest % (p * p) == 0 {
+            rest /= p * p;
+            all = times(all, p);
+        }
+        if rest > 0 && rest % p == 0 {
+            rest /= p;
+            all = times(all, root(p)?);
+        }
+    }
+    // No square of a larger prime is in it.
+    let is_square = rest > 1 && rest.isqrt().pow(2) == rest;
+    (rest < DIVISOR.pow(3) && !is_square).then_some(times(all, root(rest)?))
+}
+
 impl Residue {
     /// An integer.
     pub fn new(n: u64) -> Self {
@@ -68,11 +148,12 @@ impl Residue {
 
     /// An input that may be an angle: with this value, and the point (2t, 1 − t²)/(1 + t²) for its sine and cosine.
     pub fn input(n: u64, t: u64) -> Self {
-        let t = t % P;
-        let square = times(t, t);
-        let circle = inverse(plus(1, square))
-            .map(|over| (times(plus(t, t), over), times(plus(1, minus(square)), over)));
-        Residue { value: Some(n % P), circle, turns: Rational::ZERO, number: None }
+        Residue { value: Some(n % P), circle: point(t % P), turns: Rational::ZERO, number: None }
+    }
+
+    /// Sine and cosine of the value as an angle, π aside.
+    fn circle(&self) -> Option<(u64, u64)> {
+        self.circle.or_else(|| of_radians(self.number.as_ref()?))
     }
 
     /// The integer below the prime; `None` where it is undefined.
@@ -128,9 +209,8 @@ impl Residue {
 
 impl Domain for Residue {
     fn rational(r: &Rational) -> Self {
-        let modulo =
-            |digits: &str| digits.bytes().fold(0, |n, digit| plus(times(n, 10), u64::from(digit - b'0')));
         let (over, under) = r.abs().digits();
+        let modulo = |digits: &str| modulo(digits, P);
         let value = inverse(modulo(&under)).map(|u| times(modulo(&over), u));
         let value = Residue::plain(value);
         Residue { number: Some(r.clone()), ..if r.is_negative() { value.neg() } else { value } }
@@ -148,8 +228,12 @@ impl Domain for Residue {
 
     fn add(&self, b: &Self) -> Self {
         let value = self.value.zip(b.value).map(|(x, y)| plus(x, y));
-        let circle = self.circle.zip(b.circle).map(|(x, y)| turned(x, y));
-        Residue { value, circle, turns: &self.turns + &b.turns, number: None }
+        let turns = &self.turns + &b.turns;
+        if let (Some(x), Some(y)) = (&self.number, &b.number) {
+            return Residue { value, circle: None, turns, number: Some(x + y) };
+        }
+        let circle = self.circle().and_then(|x| Some(turned(x, b.circle()?)));
+        Residue { value, circle, turns, number: None }
     }
 
     fn sub(&self, b: &Self) -> Self {
@@ -175,26 +259,23 @@ impl Domain for Residue {
         }
     }
 
-    /// The prime is 3 modulo 4.
     fn sqrt(&self) -> Self {
-        let root = self.get().map(|a| (a, power(a, P.div_ceil(4))));
-        Residue::plain(root.filter(|&(a, root)| times(root, root) == a).map(|r| r.1))
+        let found = match &self.number {
+            Some(n) => root_of_number(n),
+            None => self.get().and_then(root),
+        };
+        Residue::plain(found)
     }
 
     fn sin_cos(&self) -> (Self, Self) {
-        let quarters = &self.turns * &Rational::from(2);
-        let whole = quarters.floor();
-        let exact = (quarters == whole).then(|| {
-            let four = Rational::from(4);
-            let rest = &whole - &(&(&whole / &four).floor() * &four);
-            rest.to_integer().unwrap_or(0)
-        });
-        let Some(((mut s, mut c), quarters)) = self.circle.zip(exact) else {
+        let parts = &self.turns * &Rational::from(PARTS / 2);
+        let all = Rational::from(PARTS);
+        let rest = &parts - &(&(&parts / &all).floor() * &all);
+        let count = rest.to_integer().and_then(|n| u64::try_from(n).ok());
+        let Some((own, count)) = self.circle().zip(count) else {
             return (Residue::undefined(), Residue::undefined());
         };
-        for _ in 0..quarters {
-            (s, c) = (c, minus(s));
-        }
+        let (s, c) = turned(own, repeated(PART, count));
         (Residue::new(s), Residue::new(c))
     }
 

@@ -5,60 +5,81 @@
 //! which programs take sines; torques at the joints follow from those at the coordinates, τ = Gᵀ τ' with x = G q, as Lagrange's equations
 //! do. And the kinetic energy is had from velocities in the links' own frames: T = ½ Σ (ωᵀJω + 2 MS·(V × ω) + M V²).
 
+mod packed;
 mod ring;
 
 use super::model::Formulas;
 use crate::description::JointKind;
 use crate::geometry::Rotation;
 use denavit_program::{Op, Program, Value};
-use denavit_symbolic::poly::{Atom, Poly};
 use denavit_symbolic::{Expr, Rational, Symbol};
+use packed::{Atom, LONG, NARROW, Poly, WIDE};
 use ring::{Coordinate, MULTIPLE, Ring, Sum, sum, transposed};
 use rustc_hash::FxHashMap;
+
+/// Monomials have too few words.
+struct TooNarrow;
 
 /// Whether the torques of a program in base parameters are proved to be those of Lagrange's equations. Not, if a value has no such
 /// form, or one that is too large.
 pub(super) fn are_lagranges(formulas: &Formulas, base: &FxHashMap<Symbol, Expr>, torques: &Program) -> bool {
-    let mut ring = Ring::default();
+    let widths = [are_lagranges_in::<NARROW>, are_lagranges_in::<LONG>, are_lagranges_in::<WIDE>];
+    widths.into_iter().find_map(|in_width| in_width(formulas, base, torques).ok()).unwrap_or(false)
+}
+
+fn are_lagranges_in<const W: usize>(
+    formulas: &Formulas,
+    base: &FxHashMap<Symbol, Expr>,
+    torques: &Program,
+) -> Result<bool, TooNarrow> {
+    let mut ring = Ring::<W>::default();
     let mut are_equal = || {
         let arm = Arm::new(formulas, &mut ring)?;
         let wanted = lagrange(formulas, &arm, &mut ring)?;
         Some(expanded(formulas, base, torques, &arm, &mut ring)? == wanted)
     };
-    are_equal().unwrap_or(false)
+    let found = are_equal().unwrap_or(false);
+    if ring.is_full { Err(TooNarrow) } else { Ok(found) }
 }
 
 /// Whether the results of two programs of an arm are proved to be equal.
 pub(super) fn are_equal(formulas: &Formulas, a: &Program, b: &Program) -> bool {
-    let (mut ring, none) = (Ring::default(), FxHashMap::default());
+    let widths = [are_equal_in::<NARROW>, are_equal_in::<LONG>, are_equal_in::<WIDE>];
+    widths.into_iter().find_map(|in_width| in_width(formulas, a, b).ok()).unwrap_or(false)
+}
+
+fn are_equal_in<const W: usize>(formulas: &Formulas, a: &Program, b: &Program) -> Result<bool, TooNarrow> {
+    let (mut ring, none) = (Ring::<W>::default(), FxHashMap::default());
     let mut are_equal = || {
         let arm = Arm::new(formulas, &mut ring)?;
         let [a, b] = [a, b].map(|program| expanded(formulas, &none, program, &arm, &mut ring));
         Some(a? == b?)
     };
-    are_equal().unwrap_or(false)
+    let found = are_equal().unwrap_or(false);
+    if ring.is_full { Err(TooNarrow) } else { Ok(found) }
 }
 
 /// The arm in coordinates of its own: the angles of groups of parallel axes from their beginning, displacements. So no sine of a sum
 /// is written out.
-struct Arm {
+struct Arm<const W: usize> {
     /// For each axis its turn as a sum, or its displacement, with its rate.
     turns: Vec<Sum>,
-    slides: Vec<Poly>,
-    rates: Vec<Poly>,
+    slides: Vec<Poly<W>>,
+    rates: Vec<Poly<W>>,
     coordinates: Vec<Coordinate>,
     /// Rates and accelerations of the coordinates.
     moving: Vec<[Atom; 2]>,
     /// How the coordinates vary with the joint variables.
-    slopes: Vec<Vec<Poly>>,
-    /// The joint variables as sums of angles, or as lengths; their rates and accelerations, signs of the rates.
+    slopes: Vec<Vec<Poly<W>>>,
+    /// The joint variables as sums of angles, or as lengths; their rates and accelerations, signs of the rates where Coulomb's
+    /// friction asks for them.
     angles: FxHashMap<Symbol, Sum>,
-    joints: FxHashMap<Symbol, Poly>,
-    signs: Vec<Poly>,
+    joints: FxHashMap<Symbol, Poly<W>>,
+    signs: Vec<Option<Poly<W>>>,
 }
 
-impl Arm {
-    fn new(formulas: &Formulas, ring: &mut Ring) -> Option<Self> {
+impl<const W: usize> Arm<W> {
+    fn new(formulas: &Formulas, ring: &mut Ring<W>) -> Option<Self> {
         let n = formulas.q.len();
         let mut arm = Arm {
             turns: vec![],
@@ -94,8 +115,8 @@ impl Arm {
                     // q = (x − the rest)/k
                     let by = own_slopes[j].as_constant()?.recip()?;
                     let of_group = if is_turn { group_slopes.clone() } else { vec![Poly::zero(); n] };
-                    let slopes: Vec<Poly> = (0..n).map(|i| own_slopes[i].plus(&of_group[i])).collect();
-                    let [x, rate, change] = [ring.free()?, ring.free()?, ring.free()?];
+                    let slopes: Vec<Poly<W>> = (0..n).map(|i| own_slopes[i].plus(&of_group[i])).collect();
+                    let [rate, change] = [ring.free()?, ring.free()?];
                     if is_turn {
                         let times = by.to_integer().filter(|k| k.abs() == 1)?;
                         let angle = ring.angle()?;
@@ -113,6 +134,7 @@ impl Arm {
                         arm.angles.insert(formulas.q[j], joint);
                         arm.coordinates.push(Coordinate::Angle(angle));
                     } else {
+                        let x = ring.free()?;
                         let mut rest = ring.constant(link.value.offset)?;
                         for i in (0..n).filter(|&i| i != j && !own_slopes[i].is_zero()) {
                             let other = arm.joints.get(&formulas.q[i])?.clone();
@@ -165,8 +187,8 @@ impl Arm {
             arm.slides.push(slide);
             arm.rates.push(rate);
         }
-        for _ in 0..n {
-            arm.signs.push(Poly::atom(ring.free()?));
+        for drive in &formulas.dynamics.drives {
+            arm.signs.push(if drive.coulomb.is_zero() { None } else { Some(Poly::atom(ring.free()?)) });
         }
         (arm.coordinates.len() == n).then_some(arm)
     }
@@ -178,7 +200,7 @@ fn whole(k: Expr) -> Option<i64> {
 }
 
 /// The torques at the joints by Lagrange's equations, from the energies of the links, whose frames are carried from the base.
-fn lagrange(formulas: &Formulas, arm: &Arm, ring: &mut Ring) -> Option<Vec<Poly>> {
+fn lagrange<const W: usize>(formulas: &Formulas, arm: &Arm<W>, ring: &mut Ring<W>) -> Option<Vec<Poly<W>>> {
     let o = || [Poly::zero(), Poly::zero(), Poly::zero()];
     let (mut turning, mut velocity) = (o(), o());
     let one = |i: usize| [0, 1, 2].map(|j| if i == j { Poly::one() } else { Poly::zero() });
@@ -270,7 +292,8 @@ fn lagrange(formulas: &Formulas, arm: &Arm, ring: &mut Ring) -> Option<Vec<Poly>
             torque = torque.plus(&ring.mul(&arm.slopes[k][j], force)?);
         }
         let [rate, change] = [formulas.qd[j], formulas.qdd[j]].map(|s| arm.joints.get(&s).cloned());
-        let moving = [(drive.rotor, change?), (drive.viscous, rate?), (drive.coulomb, arm.signs[j].clone())];
+        let way = arm.signs[j].clone().unwrap_or_else(Poly::zero);
+        let moving = [(drive.rotor, change?), (drive.viscous, rate?), (drive.coulomb, way)];
         for (e, by) in moving {
             let e = ring.constant(e)?;
             torque = torque.plus(&ring.mul(&e, &by)?);
@@ -281,15 +304,15 @@ fn lagrange(formulas: &Formulas, arm: &Arm, ring: &mut Ring) -> Option<Vec<Poly>
 }
 
 /// The results of a program.
-fn expanded(
+fn expanded<const W: usize>(
     formulas: &Formulas,
     base: &FxHashMap<Symbol, Expr>,
     program: &Program,
-    arm: &Arm,
-    ring: &mut Ring,
-) -> Option<Vec<Poly>> {
+    arm: &Arm<W>,
+    ring: &mut Ring<W>,
+) -> Option<Vec<Poly<W>>> {
     let mut formula: Vec<Option<Expr>> = vec![];
-    let mut values: Vec<Option<Poly>> = vec![];
+    let mut values: Vec<Option<Poly<W>>> = vec![];
     for (op, _) in program.ops() {
         // Sums of inputs as formulas, for sines and cosines.
         let of = |n: &u32| formula[*n as usize];
@@ -343,7 +366,7 @@ fn expanded(
             Op::Sign(a) => {
                 let rate = of(a)?.as_symbol()?;
                 let joint = formulas.qd.iter().position(|s| *s == rate)?;
-                Some(arm.signs[joint].clone())
+                arm.signs[joint].clone()
             }
             Op::Sqrt(a) if !a.negative => match at(&a.node).and_then(Poly::as_constant) {
                 Some(square) => Some(ring.root(&square)?),
