@@ -235,6 +235,14 @@ fn dynamics_are_generated() {
     let text = fs::read_to_string(target.join("planar_2r.py")).unwrap();
     assert!(text.contains("Base parameter of link 1: a1^2*M2 + ZZ1"), "{text}");
 
+    // A file of MATLAB has the name of its function, with all of its letters.
+    let target = folder("moving-matlab");
+    let name = "three_links_and_a_long_name";
+    generated(moving, "matlab", &target, &["--functions", "acceleration_with_derivatives", "--name", name]);
+    let function = format!("{name}_acceleration_with_derivatives");
+    let text = fs::read_to_string(target.join(format!("{function}.m"))).unwrap();
+    assert!(function.len() <= 63 && text.contains(&format!(" = {function}(")), "{text}");
+
     let path = target.to_str().unwrap();
     let generate = |functions: &'static str, masses: &'static str| {
         vec![

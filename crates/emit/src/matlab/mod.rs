@@ -16,8 +16,10 @@ use denavit_symbolic::{Expr, Symbol};
 
 const WRAP: Wrap = Wrap { width: 100, step: 4, sign_leads: false, goes_on: " ...", brackets: ["", ""] };
 
-/// The longest names of a library, and of a function or its result: `library_function` has at most 63 letters.
+/// The longest names of a library, of a function of it, and of results and solvers: `library_function` has at most 63 letters, two of
+/// them for a number where others are called so.
 const MAX_LIBRARY: usize = 30;
+const MAX_FUNCTION: usize = 32;
 const MAX_NAME: usize = 20;
 
 /// Names that mean something in the files.
@@ -67,7 +69,7 @@ impl<'a> Module<'a> {
         let mut names = Names::new(Language::Matlab, &RESERVED.split_whitespace().collect::<Vec<_>>());
         let test = names.free(&format!("test_{name}"));
         let parameters = names.free(&format!("{name}_parameters"));
-        let mut function = |r: &Routine| names.free(&format!("{name}_{}", short(&r.name, MAX_NAME)));
+        let mut function = |r: &Routine| names.free(&format!("{name}_{}", short(&r.name, MAX_FUNCTION)));
         let functions: Vec<String> = library.routines.iter().map(&mut function).collect();
         let mut words: Vec<&str> = RESERVED.split_whitespace().filter(|w| *w != "q").collect();
         words.extend(solver::WORDS.split_whitespace());
