@@ -1,5 +1,6 @@
 // Generated dynamics beside Pinocchio in C++, in one program: a UR5 and a Panda with the numbers of their URDFs.
-// Prints one JSON object: the unit in ns, and a figure for each entry.
+// Prints one JSON object: the unit in ns, and a figure for each entry. With GENERATED Pinocchio's generated code is there, too, with
+// DYNIBO the crate dynibo, for the arms in the folder that is named.
 #include <pinocchio/fwd.hpp>
 #include <pinocchio/multibody.hpp>
 #include <pinocchio/algorithm/aba.hpp>
@@ -11,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -20,38 +22,35 @@
 #include "pandav3.h"
 #include "pandav4.h"
 
-struct Link {
-    double rotation[9], translation[3];
-    int axis;
-    double mass, lever[3], inertia[9];
-};
+#include "model.hpp"
 #include "ur5.inc"
 #include "panda.inc"
+
+extern "C" {
+#ifdef GENERATED
+// What CppADCodeGen declares in each file; no atomic functions are called.
+struct LangCAtomicFun {
+    void *model, *forward, *reverse;
+};
+#define GENERATED_FOR(arm)                                                                                             \
+    void arm##_rnea_forward_zero(const double *const *, double *const *, LangCAtomicFun);                              \
+    void arm##_crba_forward_zero(const double *const *, double *const *, LangCAtomicFun);                              \
+    void arm##_aba_forward_zero(const double *const *, double *const *, LangCAtomicFun);                               \
+    void arm##_derivatives_forward_zero(const double *const *, double *const *, LangCAtomicFun);
+GENERATED_FOR(ur5)
+GENERATED_FOR(panda)
+#endif
+#ifdef DYNIBO
+void *dynibo_robot(const char *path, size_t joints);
+void dynibo_torque(void *robot, const double *state, double *torques);
+void dynibo_inertia(void *robot, const double *state, double *matrix);
+void dynibo_acceleration(void *robot, const double *state, double *accelerations);
+#endif
+}
 
 namespace {
 
 const int STATES = 1024, ROUNDS = 25, RUNS = 5;
-
-pinocchio::Model model_of(const Link *links, int n)
-{
-    typedef Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> Matrix;
-    typedef Eigen::Map<const Eigen::Vector3d> Vector;
-    pinocchio::Model model;
-    pinocchio::JointIndex parent = 0;
-    for (int i = 0; i < n; i++) {
-        const Link &l = links[i];
-        const pinocchio::SE3 place(Matrix(l.rotation), Vector(l.translation));
-        const std::string name = "j" + std::to_string(i);
-        switch (l.axis) {
-        case 0: parent = model.addJoint(parent, pinocchio::JointModelRX(), place, name); break;
-        case 1: parent = model.addJoint(parent, pinocchio::JointModelRY(), place, name); break;
-        default: parent = model.addJoint(parent, pinocchio::JointModelRZ(), place, name);
-        }
-        const pinocchio::Inertia body(l.mass, Vector(l.lever), Matrix(l.inertia));
-        model.appendBodyToJoint(parent, body, pinocchio::SE3::Identity());
-    }
-    return model;
-}
 
 void keep(double x)
 {
@@ -88,6 +87,7 @@ template <int N> struct Arm {
     pinocchio::Model model;
     pinocchio::Data data;
     std::vector<Eigen::VectorXd> q, v, a;
+    void *robot = nullptr; // dynibo's
 
     Arm(const Link *links, unsigned seed, int lanes)
         : states(3 * N * STATES), blocks(3 * N * STATES), out(64 * (3 * N + 1) * N), lanes(lanes), model(model_of(links, N)), data(model)
@@ -150,7 +150,7 @@ template <int N, class F> void block(Arm<N> &arm, const char *group, const std::
                        {}});
 }
 
-template <int N, class F> void peer(Arm<N> &arm, const char *group, const char *name, F f)
+template <int N, class F> void peer(Arm<N> &arm, const std::string &group, const char *name, F f)
 {
     entries.push_back({group, name, 0,
                        [&arm, f] {
@@ -161,6 +161,34 @@ template <int N, class F> void peer(Arm<N> &arm, const char *group, const char *
                        {},
                        {}});
 }
+
+// Pinocchio's generated code: the states are its inputs as they stand.
+template <int N, class F> void generated(Arm<N> &arm, const std::string &group, const char *name, F f)
+{
+    peer<N>(arm, group, name, [&arm, f](int i) {
+        f(&arm.states[3 * N * i], &arm.out[0]);
+        keep(arm.out[0]);
+    });
+}
+
+#ifdef GENERATED
+#define CALL(f)                                                                                                        \
+    [](const double *x, double *y) {                                                                                   \
+        const double *in[1] = {x};                                                                                     \
+        double *out[1] = {y};                                                                                          \
+        f(in, out, LangCAtomicFun());                                                                                  \
+    }
+#define GENERATED_CODE(arm, N, group, f, name)                                                                         \
+    generated<N>(arm, group, "Pinocchio, generated code, " name, CALL(f##_forward_zero));
+#else
+#define GENERATED_CODE(arm, N, group, f, name)
+#endif
+#ifdef DYNIBO
+#define DYNIBO_CODE(arm, N, group, f, name)                                                                            \
+    generated<N>(arm, group, "dynibo, " name, [&arm](const double *x, double *y) { f(arm.robot, x, y); });
+#else
+#define DYNIBO_CODE(arm, N, group, f, name)
+#endif
 
 const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
 
@@ -189,10 +217,65 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
         LEVEL(arm, N, group, prefix##v4, "generated C, AVX-512", first, second)                                        \
     }
 
+// Torques, matrices and accelerations of the other peers, held against Pinocchio's.
+template <int N> void hold_dynibo(Arm<N> &arm, const std::string &folder, const char *name)
+{
+#ifdef DYNIBO
+    arm.robot = dynibo_robot((folder + "/" + name + ".urdf").c_str(), N);
+    if (!arm.robot) {
+        fprintf(stderr, "dynibo has other joints for %s\n", name);
+        exit(1);
+    }
+    pinocchio::Model model = arm.model;
+    model.gravity.linear() = Eigen::Vector3d(0, 0, -9.80665); // as dynibo has it
+    double y[N * N];
+    for (int i = 0; i < STATES; i++) {
+        const double *x = &arm.states[3 * N * i];
+        dynibo_torque(arm.robot, x, y);
+        hold(y, pinocchio::rnea(model, arm.data, arm.q[i], arm.v[i], arm.a[i]).data(), N);
+        dynibo_acceleration(arm.robot, x, y);
+        const Eigen::VectorXd qdd = pinocchio::aba(model, arm.data, arm.q[i], arm.v[i], arm.a[i]);
+        hold(y, qdd.data(), N);
+        dynibo_inertia(arm.robot, x, y);
+        pinocchio::crba(model, arm.data, arm.q[i]);
+        for (int r = 0; r < N; r++) {
+            for (int c = r; c < N; c++) {
+                const double theirs = arm.data.M(r, c);
+                hold(y + N * r + c, &theirs, 1);
+            }
+        }
+    }
+#else
+    (void)arm, (void)folder, (void)name;
+#endif
+}
+
+#ifdef GENERATED
+#define OTHERS(arm, N, prefix)                                                                                         \
+    for (int i = 0; i < STATES; i++) {                                                                                 \
+        const double *x = &arm.states[3 * N * i];                                                                      \
+        double y[3 * N * N];                                                                                           \
+        CALL(prefix##_rnea_forward_zero)(x, y);                                                                        \
+        hold(y, pinocchio::rnea(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]).data(), N);                         \
+        CALL(prefix##_aba_forward_zero)(x, y);                                                                         \
+        const Eigen::VectorXd qdd = pinocchio::aba(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                 \
+        hold(y, qdd.data(), N);                                                                                        \
+        CALL(prefix##_derivatives_forward_zero)(x, y);                                                                 \
+        pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                          \
+        for (int r = 0; r < N; r++) {                                                                                  \
+            const Eigen::VectorXd row = arm.data.dtau_dq.row(r);                                                       \
+            hold(y + N * r, row.data(), N);                                                                            \
+        }                                                                                                              \
+    }
+#else
+#define OTHERS(arm, N, prefix)
+#endif
+
 #define ARM(prefix, N, title, L, lanes)                                                                                \
     static Arm<N> prefix(prefix##_links, N, lanes);                                                                    \
     {                                                                                                                  \
         auto &arm = prefix;                                                                                            \
+        hold_dynibo<N>(arm, folder, #prefix);                                                                          \
         double tau[N], inertia[N][N], qdd[N], by[N][3 * N], all[N][3 * N + 1];                                          \
         for (int i = 0; i < STATES; i++) {                                                                             \
             const double *x = &arm.states[3 * N * i];                                                                  \
@@ -214,26 +297,34 @@ const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports
                 hold(all[r] + 1, by[r], 3 * N);                                                                        \
             }                                                                                                          \
         }                                                                                                              \
+        OTHERS(arm, N, prefix)                                                                                         \
         BOTH(arm, N, title ": torque", prefix, torque, , L[0], L[1])                                                   \
         peer<N>(arm, title ": torque", "Pinocchio, rnea", [&arm](int i) {                                              \
             pinocchio::rnea(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                                        \
             keep(arm.data.tau[0]);                                                                                     \
         });                                                                                                            \
+        GENERATED_CODE(arm, N, title ": torque", prefix##_rnea, "rnea")                                                \
+        DYNIBO_CODE(arm, N, title ": torque", dynibo_torque, "inverse_dynamics")                                       \
         BOTH(arm, N, title ": inertia matrix", prefix, inertia, (double(*)[N]), L[2], L[3])                            \
         peer<N>(arm, title ": inertia matrix", "Pinocchio, crba (half of it)", [&arm](int i) {                         \
             pinocchio::crba(arm.model, arm.data, arm.q[i], pinocchio::Convention::LOCAL);                              \
             keep(arm.data.M(0, 0));                                                                                    \
         });                                                                                                            \
+        GENERATED_CODE(arm, N, title ": inertia matrix", prefix##_crba, "crba (half of it)")                           \
+        DYNIBO_CODE(arm, N, title ": inertia matrix", dynibo_inertia, "mass_matrix")                                   \
         BOTH(arm, N, title ": acceleration", prefix, acceleration, , L[4], L[5])                                       \
         peer<N>(arm, title ": acceleration", "Pinocchio, aba", [&arm](int i) {                                         \
             pinocchio::aba(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i], pinocchio::Convention::LOCAL);           \
             keep(arm.data.ddq[0]);                                                                                     \
         });                                                                                                            \
+        GENERATED_CODE(arm, N, title ": acceleration", prefix##_aba, "aba")                                            \
+        DYNIBO_CODE(arm, N, title ": acceleration", dynibo_acceleration, "forward_dynamics")                           \
         DERIVED(arm, N, title ": torque with derivatives", prefix, L[6], L[7])                                         \
         peer<N>(arm, title ": torque with derivatives", "Pinocchio, computeRNEADerivatives", [&arm](int i) {           \
             pinocchio::computeRNEADerivatives(arm.model, arm.data, arm.q[i], arm.v[i], arm.a[i]);                      \
             keep(arm.data.dtau_dq(0, 0));                                                                              \
         });                                                                                                            \
+        GENERATED_CODE(arm, N, title ": torque with derivatives", prefix##_derivatives, "computeRNEADerivatives")      \
     }
 
 double quantile(std::vector<double> list, double part)
@@ -244,8 +335,9 @@ double quantile(std::vector<double> list, double part)
 
 } // namespace
 
-int main()
+int main(int count, char **arguments)
 {
+    const std::string folder = count > 1 ? arguments[1] : ".";
     const double ur5_limits[8] = {0.75, 0.16, 0.75, 0.15, 1.6, 0.3, 2.6, 0.5};
     const double panda_limits[8] = {1.4, 0.32, 0, 0, 0, 0, 0, 0};
     ARM(ur5, 6, "UR5", ur5_limits, UR5V3_LANES)
@@ -284,6 +376,27 @@ int main()
             printf(", \"limit\": %g", e.limit);
         }
         printf("}");
+    }
+    printf("], \"beside\": [");
+    // What the better of our two levels takes of the time of Pinocchio's generated code.
+    const std::string level = is_wide ? "generated C, AVX-512, " : "generated C, AVX2, ";
+    bool is_first = true;
+    for (const Entry &theirs : entries) {
+        if (theirs.name.find("Pinocchio, generated code") != 0) {
+            continue;
+        }
+        for (const Entry &own : entries) {
+            if (own.group != theirs.group || own.name.find(level) != 0) {
+                continue;
+            }
+            std::vector<double> parts;
+            for (int round = 0; round < ROUNDS; round++) {
+                parts.push_back(own.times[(size_t)round] / theirs.times[(size_t)round]);
+            }
+            printf("%s{\"group\": \"%s\", \"name\": \"%s\", \"part\": %.4f}", is_first ? "" : ", ", own.group.c_str(),
+                   own.name.c_str(), quantile(parts, 0.5));
+            is_first = false;
+        }
     }
     printf("]}\n");
     return 0;

@@ -1,9 +1,12 @@
-//! Speed of generated dynamics beside Pinocchio: `bench/dynamics`, built with both.
+//! Speed of generated dynamics beside Pinocchio, its generated code and the crate dynibo: `bench/dynamics`, built with all of them.
 
+use super::MISSED;
 use super::evaluation::table;
 use crate::languages::{apt, python, quietly};
 use crate::{command, path, program, target};
 use anyhow::{Context, Result, bail};
+use serde_json::Value;
+use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -29,11 +32,20 @@ const PINOCCHIO: &[&str] = &[
     "-isystem",
 ];
 
+/// Pinocchio's generator of C (`CodeGenRNEA` …), of the versions that go together. Peers alone: nothing of them is handed out.
+const GENERATOR: &[&str] = &["cmeel-cppad==20230000.0", "cmeel-cppadcodegen==2.4.3"];
+/// How the generated C is compiled: as Pinocchio does by default, and for this processor.
+const GENERATED: &[&str] = &["-Ofast", "-march=native", "-c"];
+/// The part of the time of Pinocchio's generated code that ours may take.
+const PART: f64 = 0.5;
+
 const INTRODUCTION: &str = "\
 A UR5 and a Panda (seven joints, its hand fixed) with the numbers of their URDFs: generated C (gcc, one state or blocks as large as\n\
-its header says, 1,024 random states) beside Pinocchio 4.1 in C++ (clang, `-O3 -march=native`, templates built for this processor), in one program. The\n\
+its header says, 1,024 random states) beside Pinocchio 4.1 in C++ (clang, `-O3 -march=native`, templates built for this processor), in one program, with\n\
+the C that Pinocchio generates for each of the arms (`CodeGenRNEA` and its like by CppADCodeGen 2.4.3; gcc, `-Ofast -march=native`, its own default) and\n\
+the crate dynibo 0.5.3 (`target-cpu=native`). The\n\
 unit U, rounds and quartiles are those of [evaluation](#evaluation). Before anything is timed torques, accelerations and\n\
-derivatives are compared with Pinocchio's in every state: they agree within 1e-9 of their size (the URDF's 1.57079632679 is\n\
+derivatives of all of them are compared with Pinocchio's in every state: they agree within 1e-9 of their size (the URDF's 1.57079632679 is\n\
 π/2 to us). A is all of the matrix; Pinocchio computes half of it. Torque with derivatives is τ, ∂τ/∂q, ∂τ/∂q̇ and A, by\n\
 `torque_with_derivatives`.\n";
 
@@ -74,22 +86,91 @@ pub fn run() -> Result<String> {
             objects.push(folder.join(format!("{name}.o")));
         }
         let mut model = Command::new(&python);
-        let text = output(model.arg(path("bench/dynamics/model.py")).arg(&file).args([tip, arm]))?;
-        fs::write(folder.join(format!("{arm}.inc")), text)?;
+        model.arg(path("bench/dynamics/model.py")).arg(&file).args([tip, arm]).arg(&folder);
+        quietly(&mut model)?;
     }
     let headers =
         "import pinocchio, pathlib; print(pathlib.Path(pinocchio.__file__).resolve().parents[4] / 'include')";
     let headers = output(Command::new(&python).args(["-c", headers]))?;
+    let mut left_out = String::new();
+    let mut defined = vec![];
+    for (what, definition, peer) in [
+        ("Pinocchio's generated code", "-DGENERATED", generated(headers.trim(), &folder)),
+        ("dynibo", "-DDYNIBO", dynibo(&folder).map(|library| vec![library])),
+    ] {
+        match peer {
+            Ok(more) => {
+                objects.extend(more);
+                defined.push(definition);
+            }
+            Err(why) => {
+                println!("{what} is left out: {why:#}");
+                let _ = writeln!(left_out, "\nLeft out, as it does not build here: {what}.");
+            }
+        }
+    }
     println!("building Pinocchio takes a minute or two");
     let built = folder.join("bench");
     let mut clang = Command::new("clang++");
-    clang.args(PINOCCHIO).arg(headers.trim()).arg("-I").arg(&folder).arg(path("bench/dynamics/bench.cpp"));
-    quietly(clang.args(&objects).arg("-o").arg(&built).arg("-lm"))?;
-    let measured =
-        serde_json::from_str(&output(&mut Command::new(&built))?).context("the benchmark prints JSON")?;
-    let table = table(&measured)?;
+    clang.args(PINOCCHIO).arg(headers.trim()).args(defined).arg("-I").arg(&folder);
+    clang.arg(path("bench/dynamics/bench.cpp")).args(&objects);
+    quietly(clang.arg("-o").arg(&built).args(["-lm", "-lpthread", "-ldl"]))?;
+    let measured = output(Command::new(&built).arg(&folder))?;
+    let measured = serde_json::from_str(&measured).context("the benchmark prints JSON")?;
+    let table = format!("{}{}{left_out}", table(&measured)?, beside(&measured)?);
     println!("{table}");
     Ok(format!("{INTRODUCTION}{table}"))
+}
+
+/// The objects of the C that Pinocchio generates.
+fn generated(headers: &str, folder: &Path) -> Result<Vec<PathBuf>> {
+    python(GENERATOR)?;
+    let folder_of_code = folder.join("generated");
+    let generator = folder.join("codegen");
+    println!("building Pinocchio's generator takes some minutes");
+    let mut clang = Command::new("clang++");
+    let options = PINOCCHIO.iter().map(|o| if *o == "-O3" { "-O0" } else { *o });
+    clang.args(options).arg(headers).arg("-I").arg(folder).arg(path("bench/dynamics/codegen.cpp"));
+    quietly(clang.arg("-o").arg(&generator).arg("-ldl"))?;
+    quietly(Command::new(&generator).arg(&folder_of_code))?;
+    let mut objects = vec![];
+    for (_, _, arm) in ARMS {
+        for function in ["rnea", "crba", "aba", "derivatives"] {
+            let name = format!("{arm}_{function}_forward_zero");
+            let mut gcc = Command::new("gcc");
+            quietly(gcc.args(GENERATED).arg(format!("{name}.c")).current_dir(&folder_of_code))?;
+            objects.push(folder_of_code.join(format!("{name}.o")));
+        }
+    }
+    Ok(objects)
+}
+
+/// The crate dynibo with functions that C++ calls.
+fn dynibo(folder: &Path) -> Result<PathBuf> {
+    let target = folder.join("dynibo");
+    let mut cargo = command("cargo");
+    cargo
+        .args(["build", "--release", "--locked", "--manifest-path"])
+        .arg(path("bench/dynamics/dynibo/Cargo.toml"));
+    quietly(cargo.arg("--target-dir").arg(&target).env("RUSTFLAGS", "-C target-cpu=native"))?;
+    Ok(target.join("release/libdenavit_bench_dynibo.a"))
+}
+
+/// What part of the time of Pinocchio's generated code ours takes.
+fn beside(measured: &Value) -> Result<String> {
+    let parts = measured["beside"].as_array().context("a list of parts")?;
+    if parts.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text =
+        String::from("\n| of the time of Pinocchio's generated code | part | limit |\n|---|---:|---:|\n");
+    for part in parts {
+        let word = |key: &str| part[key].as_str().unwrap_or_default();
+        let own = part["part"].as_f64().context("a part")?;
+        let verdict = if own > PART { format!(" {MISSED}") } else { String::new() };
+        let _ = writeln!(text, "| {}, {} | {own:.3} | {PART}{verdict} |", word("group"), word("name"));
+    }
+    Ok(text)
 }
 
 /// What a command prints.
