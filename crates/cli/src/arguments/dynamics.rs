@@ -76,6 +76,13 @@ pub struct DynamicsArguments {
     /// with --whole those of a tree
     #[arg(long, conflicts_with_all = ["q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]
     pub symbolic: bool,
+    /// Parameters of links that are to stand for what is grouped with them, as in --keep "YY2, M4", in place of those that the rule
+    /// of Gautier and Khalil keeps; for --symbolic and --explain
+    #[arg(long, value_name = "PARAMETERS", conflicts_with_all = ["q", "input"])]
+    pub keep: Option<String>,
+    /// Parameters of links that are not to stand for others; what stands in their place is chosen
+    #[arg(long, value_name = "PARAMETERS", conflicts_with_all = ["q", "input"])]
+    pub drop: Option<String>,
     /// Explain the derivation: the bodies, the groupings, the recursion outward and inward with a name for every quantity, and on
     /// what the links' motions and the torques rest
     #[arg(long, conflicts_with_all = ["symbolic", "q", "qd", "qdd", "tau", "wrench", "at", "simulate", "input", "payload"])]

@@ -217,6 +217,32 @@ fn formulas_of_dynamics() {
 }
 
 /// Fingers beside the chain count as fixed, and are named.
+/// Base parameters with representatives that were asked for, in formulas, words and of a whole tree; reasons where there are none.
+#[test]
+fn representatives_are_chosen() {
+    let arm = ["articulated-3r", "--symbolic"];
+    let names = |more: &[&str]| -> Vec<String> {
+        let model = json(&[&arm[..], more].concat());
+        assert_eq!(model["proof"], "proved");
+        let all = model["base_parameters"].as_array().unwrap();
+        all.iter().map(|p| p["name"].as_str().unwrap().to_string()).collect()
+    };
+    let (plain, kept) = (names(&[]), names(&["--keep", "YY3, YY2"]));
+    assert_eq!(plain.len(), kept.len());
+    assert!(plain.contains(&"XXR3".into()) && !plain.contains(&"YYR3".into()), "{plain:?}");
+    assert!(!kept.contains(&"XXR3".into()) && kept.contains(&"YYR3".into()), "{kept:?}");
+    let shown = text(&fed(&["dynamics", arm[0], "--explain", "--keep", "YY3", "--drop", "XX2"], "").stdout);
+    assert!(shown.contains("YYR3 = YY3 − XX3"), "{shown}");
+    assert!(shown.contains("these stand for what is grouped with them: YY3."), "{shown}");
+    assert!(shown.contains("others stand in the place of XX2."), "{shown}");
+    refused(&[&arm[..], &["--keep", "XX1"]].concat(), 3, "XX1 has no effect on the torques");
+    refused(&[&arm[..], &["--drop", "MY3"]].concat(), 3, "MY3 cannot be dropped");
+    refused(&["planar-2r", "--symbolic", "--keep", "ZZ1 M2"], 3, "M2 cannot be kept with the others");
+    refused(&[&arm[..], &["--keep", ","]].concat(), 2, "--keep and --drop take names");
+    refused(&[arm[0], "-q", "0,0,0", "--keep", "YY3"], 2, "--keep");
+    refused(&[arm[0], "--keep", "YY3"], 2, "are for --symbolic and --explain");
+}
+
 #[test]
 fn joints_beside_the_chain_are_named() {
     let arm = concat!(env!("CARGO_MANIFEST_DIR"), "/../robot/tests/urdf/panda.urdf");

@@ -4,8 +4,8 @@ use crate::document::{Block, Factor, Line, Math, Proof};
 use crate::words::{Tongue, Wording};
 use denavit::description::{Convention, Description, JointKind, Mechanism, Row};
 use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, given};
-use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Symbol};
 
 /// The robot's names, those of masses, base parameters and rates, and those of the program's steps.
 pub fn dynamics_vocabulary(d: &Description, model: &DynamicModel) -> Vocabulary {
@@ -188,6 +188,13 @@ fn base(model: &DynamicModel, words: &dyn Wording) -> Vec<Block> {
     let base = &model.base;
     let mut blocks =
         vec![paragraph(words.base_count(base.fates.len(), base.parameters.len(), base.minimality))];
+    let symbols = |all: &[Symbol]| all.iter().map(|&s| Math::Expr(s.into())).collect::<Vec<_>>();
+    if !base.asked.kept.is_empty() {
+        blocks.push(Block::Paragraph(words.kept(symbols(&base.asked.kept))));
+    }
+    if !base.asked.dropped.is_empty() {
+        blocks.push(Block::Paragraph(words.dropped(symbols(&base.asked.dropped))));
+    }
     for p in base.parameters.iter().filter(|p| p.is_grouped) {
         blocks.push(formula(p.symbol.into(), p.value));
     }

@@ -25,6 +25,12 @@ pub trait Dynamics {
     /// That of so many parameters of the links, grouped, so many remain, and whether they are the fewest.
     fn base_count(&self, all: usize, base: usize, minimality: Minimality) -> String;
 
+    /// What was asked to stand for what is grouped with it.
+    fn kept(&self, all: Vec<Math>) -> Line;
+
+    /// What was asked not to stand for anything.
+    fn dropped(&self, all: Vec<Math>) -> Line;
+
     /// Before the base parameters that are none but themselves.
     fn base_alone(&self, all: Vec<Math>) -> Line;
 

@@ -8,6 +8,7 @@
 use super::grouping::{Grouped, grouped};
 use super::model::{Formulas, Wrench};
 use super::newton_euler::{Motion, backward, moment, motions};
+use super::representatives::{NoBasis, Representatives};
 use crate::description::{Description, Parameter};
 use crate::forward::symbol_order;
 use crate::geometry::{PARAMETERS, Vector};
@@ -56,11 +57,13 @@ pub enum Minimality {
 pub struct BaseModel {
     /// The base parameters, link by link.
     pub parameters: Vec<BaseParameter>,
+    /// What was asked of their representatives.
+    pub asked: Representatives,
     /// Whether they are the fewest.
     pub minimality: Minimality,
     /// All parameters of the links, with what becomes of them.
     pub fates: Vec<(Symbol, Fate)>,
-    /// The links, their numbers the base parameters.
+    /// The links, their numbers the base parameters, or sums of multiples of them where representatives were chosen.
     pub links: Vec<Grouped>,
     /// The joint torques from q, q̇ and q̈: `t1` …
     pub inverse: Program,
@@ -72,9 +75,29 @@ impl BaseModel {
         Self::in_order(&order(d, formulas), formulas)
     }
 
+    /// The same with representatives as they are wanted.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn derive_for(
+        d: &Description,
+        formulas: &Formulas,
+        wanted: &Representatives,
+    ) -> Result<Self, NoBasis> {
+        Self::derive(d, formulas).with_representatives(&order(d, formulas), formulas, wanted)
+    }
+
     /// The same of a whole tree.
     pub fn of_tree(formulas: &Formulas) -> Self {
-        Self::in_order(&formulas.parameters.iter().map(|p| p.symbol).collect::<Vec<_>>(), formulas)
+        Self::in_order(&order_of_tree(formulas), formulas)
+    }
+
+    /// Of a whole tree with representatives as they are wanted.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn of_tree_for(formulas: &Formulas, wanted: &Representatives) -> Result<Self, NoBasis> {
+        Self::of_tree(formulas).with_representatives(&order_of_tree(formulas), formulas, wanted)
     }
 
     /// With symbols in an order in which they are written.
@@ -88,10 +111,19 @@ impl BaseModel {
         let is_read = |e: Expr| e.as_symbol().is_none_or(|s| live.contains(&s));
         let named: Vec<Grouped> =
             named.iter().map(|l| l.with(|_, e| if is_read(e) { e } else { Expr::int(0) })).collect();
-        let inverse = torques(formulas, &named, &parameters);
         for p in parameters.iter_mut().filter(|p| p.is_grouped) {
             p.value = readable::simplify(p.value, order).map_or(p.value, |s| s.expr);
         }
+        Self::in_parameters(formulas, named, parameters)
+    }
+
+    /// With links whose numbers are sums of base parameters.
+    pub(super) fn in_parameters(
+        formulas: &Formulas,
+        links: Vec<Grouped>,
+        parameters: Vec<BaseParameter>,
+    ) -> Self {
+        let inverse = torques(formulas, &links, &parameters);
         let minimality = minimality(&inverse, &parameters);
         let mut used: FxHashMap<Symbol, Fate> = FxHashMap::default();
         for p in &parameters {
@@ -108,13 +140,17 @@ impl BaseModel {
                 fates.push((s, used.get(&s).copied().unwrap_or(Fate::WithoutEffect)));
             }
         }
-        BaseModel { parameters, minimality, fates, links: named, inverse }
+        BaseModel { parameters, asked: Representatives::default(), minimality, fates, links, inverse }
     }
 
     /// The value of a base parameter, if those of the links are known.
     pub fn value(&self, formulas: &Formulas, p: &BaseParameter) -> Option<f64> {
         p.value.eval(|s| formulas.value(s)).ok()
     }
+}
+
+fn order_of_tree(formulas: &Formulas) -> Vec<Symbol> {
+    formulas.parameters.iter().map(|p| p.symbol).collect()
 }
 
 /// The table's names, then those of the masses.
@@ -124,6 +160,15 @@ fn order(d: &Description, formulas: &Formulas) -> Vec<Symbol> {
         formulas.parameters.iter().map(|p| p.symbol).filter(|s| !d.parameters.iter().any(|p| p.symbol == *s)),
     );
     order
+}
+
+/// A name for what is grouped with a number of a link, from 0, as no other is called.
+pub(super) fn named_apart(letters: &str, link: usize, taken: &mut FxHashSet<String>) -> Symbol {
+    let mut name = format!("{letters}R{}", link + 1);
+    while !taken.insert(name.clone()) {
+        name.push('_');
+    }
+    Symbol::new(&name)
 }
 
 /// The grouped links with names for their numbers, and what these stand for.
@@ -143,13 +188,7 @@ fn named(links: &[Grouped], formulas: &Formulas) -> (Vec<Grouped>, Vec<BaseParam
             }
             let is_grouped = value.as_symbol().is_none();
             let symbol = value.as_symbol().filter(|_| !parameters.iter().any(|p| p.value == value));
-            let symbol = symbol.unwrap_or_else(|| {
-                let mut name = format!("{}R{}", PARAMETERS[entry.min(9)], k + 1);
-                while !taken.insert(name.clone()) {
-                    name.push('_');
-                }
-                Symbol::new(&name)
-            });
+            let symbol = symbol.unwrap_or_else(|| named_apart(PARAMETERS[entry.min(9)], k, &mut taken));
             parameters.push(BaseParameter { symbol, value, link: k, is_grouped });
             symbol.into()
         }));
@@ -221,9 +260,11 @@ const SPARE: usize = 4;
 
 /// Whether the torques' columns by the parameters are independent.
 fn minimality(program: &Program, parameters: &[BaseParameter]) -> Minimality {
-    let roots = program.ops().iter().filter(|(op, _)| matches!(op, Op::Sqrt(_))).count();
+    let is_number = |node: u32| matches!(program.ops()[node as usize].0, Op::Number(_));
+    let is_root = |op: &Op| matches!(op, Op::Sqrt(v) if !is_number(v.node));
+    let roots = program.ops().iter().filter(|(op, _)| is_root(op)).count();
     let live = parameters.len();
-    // Of several roots the signs would be anybody's choice.
+    // Of several roots but those of numbers the signs would be anybody's choice.
     if roots > 1 {
         return Minimality::Unknown;
     }

@@ -3,6 +3,7 @@
 use super::base::BaseModel;
 use super::lagrange::{Ground, program};
 use super::model::Formulas;
+use super::representatives::{NoBasis, Representatives};
 use super::short::shortest;
 use crate::description::Description;
 use crate::forward::symbol_order;
@@ -52,9 +53,32 @@ impl DynamicModel {
         Self::of(d, Formulas::in_numbers(d))
     }
 
+    /// The model of a description with representatives of the base parameters as they are wanted.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn derive_for(d: &Description, wanted: &Representatives) -> Result<Self, NoBasis> {
+        let formulas = Formulas::named(d);
+        let base = BaseModel::derive_for(d, &formulas, wanted)?;
+        Ok(Self::in_base(d, formulas, base))
+    }
+
     /// The model of a whole tree, by the recursion in base parameters: no frames are searched.
     pub fn of_tree(formulas: Formulas) -> Self {
         let base = BaseModel::of_tree(&formulas);
+        Self::of_tree_in_base(formulas, base)
+    }
+
+    /// The same with representatives of the base parameters as they are wanted.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn of_tree_for(formulas: Formulas, wanted: &Representatives) -> Result<Self, NoBasis> {
+        let base = BaseModel::of_tree_for(&formulas, wanted)?;
+        Ok(Self::of_tree_in_base(formulas, base))
+    }
+
+    fn of_tree_in_base(formulas: Formulas, base: BaseModel) -> Self {
         let short = base.inverse.shortened(0);
         let ground = base.ground_of_tree(&formulas, &short);
         let (torques, ground) = match ground {
@@ -67,6 +91,10 @@ impl DynamicModel {
     /// The model of formulas.
     pub(super) fn of(d: &Description, formulas: Formulas) -> Self {
         let base = BaseModel::derive(d, &formulas);
+        Self::in_base(d, formulas, base)
+    }
+
+    fn in_base(d: &Description, formulas: Formulas, base: BaseModel) -> Self {
         let torques = shortest(d, &formulas, &base);
         let ground = base.ground(d, &formulas, &torques);
         // What was searched is held against the definition, and left if it is not that.

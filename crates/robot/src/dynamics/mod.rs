@@ -12,7 +12,7 @@
 //! - [`momentum`]: of all mass, and about its centre; [`holding_torques`]: what holds a wrench; [`power`]: where it goes.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
-//! - [`BaseModel`]: base parameters, and torques in them; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
+//! - [`BaseModel`]: base parameters, and torques in them, with [`Representatives`] as they are wanted; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
 //! - [`Recursion`]: Newton and Euler's, a name for every quantity.
 //! - [`DynamicPrograms`]: all of it as programs, with derivatives.
 //! - [`direct_dynamics`], [`articulated_bodies`]: accelerations.
@@ -37,6 +37,7 @@ mod power;
 mod programs;
 mod recursion;
 mod regressor;
+mod representatives;
 mod short;
 mod simulation;
 mod tree;
@@ -58,5 +59,6 @@ pub use power::{Power, holding_torques, power};
 pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Loads, Masses, NoProgram};
 pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;
+pub use representatives::{NoBasis, Representatives};
 pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
 pub use tree::{OfTree, Unknown};

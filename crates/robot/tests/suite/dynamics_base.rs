@@ -9,14 +9,14 @@ use denavit_program::{Program, Residue};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use rustc_hash::FxHashMap;
 
-fn base(d: &Description) -> (Formulas, BaseModel) {
+pub fn base(d: &Description) -> (Formulas, BaseModel) {
     let formulas = Formulas::named(d);
     let model = BaseModel::derive(d, &formulas);
     (formulas, model)
 }
 
 /// Gravity along an axis.
-fn under(mut d: Description, gravity: [i64; 3]) -> Description {
+pub fn under(mut d: Description, gravity: [i64; 3]) -> Description {
     d.gravity = Some(gravity.map(|x| Expr::from(Rational::new(x * 981, 100))));
     d
 }
@@ -91,7 +91,7 @@ fn groupings_of_the_rx90() {
 }
 
 /// All values modulo a prime at a random state; the masses as they are grouped, or as they are.
-fn differs(formulas: &Formulas, model: &BaseModel, seed: u64) -> bool {
+pub fn differs(formulas: &Formulas, model: &BaseModel, seed: u64) -> bool {
     let mut random = Random(seed);
     let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
     let mut at: FxHashMap<Symbol, Residue> = FxHashMap::default();
@@ -119,7 +119,7 @@ fn differs(formulas: &Formulas, model: &BaseModel, seed: u64) -> bool {
     found.iter().zip(&wanted).any(|(a, b)| a.get() != b.get())
 }
 
-/// With base parameters the torques are those of the bodies, exactly: at random states modulo 2⁶¹ − 1.
+/// With base parameters the torques are those of the bodies, exactly: at random states modulo a prime.
 #[test]
 fn grouping_changes_no_torque() {
     for name in [

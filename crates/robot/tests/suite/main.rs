@@ -13,6 +13,7 @@ mod dynamics_base;
 mod dynamics_files;
 mod dynamics_programs;
 mod dynamics_recursion;
+mod dynamics_representatives;
 mod dynamics_simulation;
 mod dynamics_trees;
 mod every_arm;

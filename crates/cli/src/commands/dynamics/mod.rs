@@ -15,9 +15,9 @@ use crate::terminal::{note, words};
 use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Row, Variable};
 use denavit::dynamics::{
-    DynamicModel, Dynamics, GRAVITY, Ground, NoNumbers, Recursion, acceleration_derivatives, direct_dynamics,
-    drive_torques, friction, gravity_torques, holding_torques, inertia_matrix, kinetic_energy, momentum,
-    potential_energy, power, torque_derivatives, velocity_torques,
+    DynamicModel, Dynamics, GRAVITY, Ground, NoBasis, NoNumbers, Recursion, Representatives,
+    acceleration_derivatives, direct_dynamics, drive_torques, friction, gravity_torques, holding_torques,
+    inertia_matrix, kinetic_energy, momentum, potential_energy, power, torque_derivatives, velocity_torques,
 };
 use denavit::forward::Reference;
 use denavit::geometry::{Body, Vector};
@@ -27,7 +27,7 @@ use denavit_report::explain::{
     dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
 };
 use denavit_symbolic::print::{Style, print};
-use denavit_symbolic::{Expr, Rational};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use denavit_wire::Schema;
 use denavit_wire::dynamics::{Answer, Energy, Model, Momentum, Recursive, Slopes};
 use std::io::Write;
@@ -37,6 +37,10 @@ use std::io::Write;
 /// # Errors
 /// If the robot or an option cannot be read, masses or values are missing, or nothing can be written.
 pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
+    let asks_formulas = arguments.symbolic || arguments.explain;
+    if !asks_formulas && (arguments.keep.is_some() || arguments.drop.is_some()) {
+        return Err(Failure::Usage("--keep and --drop are for --symbolic and --explain".into()));
+    }
     if arguments.whole {
         return tree::run(arguments);
     }
@@ -51,7 +55,7 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
             held.join(", ")
         ));
     }
-    if arguments.symbolic || arguments.explain {
+    if asks_formulas {
         return symbolic(&description, arguments);
     }
     if arguments.q.is_none() && arguments.input.is_none() {
@@ -354,8 +358,33 @@ fn gravity(text: &str) -> Result<[Expr; 3], Failure> {
     Ok(components.map(Expr::from))
 }
 
+/// The representatives that are asked for, if any.
+fn representatives(arguments: &DynamicsArguments) -> Result<Option<Representatives>, Failure> {
+    if arguments.keep.is_none() && arguments.drop.is_none() {
+        return Ok(None);
+    }
+    let named = |text: &Option<String>| {
+        let all = text.iter().flat_map(|t| t.split([',', ' ', ';'])).filter(|name| !name.is_empty());
+        all.map(Symbol::new).collect()
+    };
+    let wanted = Representatives { kept: named(&arguments.keep), dropped: named(&arguments.drop) };
+    if wanted == Representatives::default() {
+        return Err(Failure::Usage(
+            "--keep and --drop take names of parameters, as in --keep \"YY2, M4\"".into(),
+        ));
+    }
+    Ok(Some(wanted))
+}
+
+fn no_basis(why: &NoBasis) -> Failure {
+    Failure::Input(format!("error: {why}"))
+}
+
 fn symbolic(description: &Description, arguments: &DynamicsArguments) -> Result<(), Failure> {
-    let model = DynamicModel::derive(description);
+    let model = match representatives(arguments)? {
+        Some(wanted) => DynamicModel::derive_for(description, &wanted).map_err(|why| no_basis(&why))?,
+        None => DynamicModel::derive(description),
+    };
     let recursion = arguments.explain.then(|| Recursion::derive(description, &model.formulas, &model.base));
     let names = match &recursion {
         Some(recursion) => recursion_vocabulary(description, &model, recursion),

@@ -1,6 +1,6 @@
 //! `dynamics --whole`: all joints of a tree.
 
-use super::{Arm, Given, gravity, report};
+use super::{Arm, Given, gravity, no_basis, report, representatives};
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;
 use crate::commands::fk::tree::{bodies, configuration, joints, kind};
@@ -28,7 +28,11 @@ pub fn unknown(file: &str, why: &Unknown) -> Failure {
 /// Formulas of a tree.
 fn symbolic(m: &Mechanism, arguments: &DynamicsArguments) -> Result<(), Failure> {
     let tree = OfTree::exact(m).map_err(|why| unknown(&arguments.robot.robot, &why))?;
-    let model = DynamicModel::of_tree(Formulas::of_tree(&tree).with_names());
+    let formulas = Formulas::of_tree(&tree).with_names();
+    let model = match representatives(arguments)? {
+        Some(wanted) => DynamicModel::of_tree_for(formulas, &wanted).map_err(|why| no_basis(&why))?,
+        None => DynamicModel::of_tree(formulas),
+    };
     let names = tree_dynamics_vocabulary(m, &model);
     let tongue = arguments.language.tongue();
     let text = if arguments.json || arguments.format == Format::Json {

@@ -58,6 +58,14 @@ impl Dynamics for English {
         format!("Of {of} of the links, grouped, {base} have an effect on the torques. {rest}")
     }
 
+    fn kept(&self, all: Vec<Math>) -> Line {
+        Line::new("As asked, these stand for what is grouped with them: ").list(all).text(".")
+    }
+
+    fn dropped(&self, all: Vec<Math>) -> Line {
+        Line::new("As asked, others stand in the place of ").list(all).text(".")
+    }
+
     fn base_alone(&self, all: Vec<Math>) -> Line {
         Line::new("as they are: ").list(all)
     }

@@ -60,6 +60,16 @@ impl Dynamics for French {
         say!("Des {of} des corps, regroupés, {base} {have} sur les couples. {rest}")
     }
 
+    fn kept(&self, all: Vec<Math>) -> Line {
+        Line::new(say!("Comme demandé, ceux-ci représentent ce qui est regroupé avec eux : "))
+            .list(all)
+            .text(".")
+    }
+
+    fn dropped(&self, all: Vec<Math>) -> Line {
+        Line::new(say!("Comme demandé, d'autres sont à la place de ")).list(all).text(".")
+    }
+
     fn base_alone(&self, all: Vec<Math>) -> Line {
         Line::new(say!("tels quels : ")).list(all)
     }
