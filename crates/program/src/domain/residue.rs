@@ -101,7 +101,7 @@ fn modulo(digits: &str, by: u64) -> u64 {
 fn of_radians(n: &Rational) -> Option<(u64, u64)> {
     let (over, under) = n.abs().digits();
     let under: u128 = under.parse().ok()?;
-    let each = (RADIANS % under == 0).then_some(RADIANS / under)? % u128::from(ORDER);
+    let each = RADIANS.is_multiple_of(under).then_some(RADIANS / under)? % u128::from(ORDER);
     let count = u128::from(modulo(&over, ORDER)) * each % u128::from(ORDER);
     let (s, c) = repeated(point(RADIAN)?, count as u64);
     Some((if n.is_negative() { minus(s) } else { s }, c))
@@ -124,11 +124,11 @@ fn root_of_number(n: &Rational) -> Option<u64> {
     let mut rest = over.checked_mul(under)?;
     let mut all = inverse(under % P)?;
     for p in 2..=DIVISOR {
-        while rest > 0 && rest % (p * p) == 0 {
+        while rest > 0 && rest.is_multiple_of(p * p) {
             rest /= p * p;
             all = times(all, p);
         }
-        if rest > 0 && rest % p == 0 {
+        if rest > 0 && rest.is_multiple_of(p) {
             rest /= p;
             all = times(all, root(p)?);
         }

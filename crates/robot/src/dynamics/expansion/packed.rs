@@ -160,7 +160,7 @@ impl<const W: usize> Poly<W> {
             }
             all = table.into_iter().collect();
         }
-        all.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        all.sort_unstable_by_key(|t| t.0);
         all.dedup_by(|next, sum| {
             let is_like = next.0 == sum.0;
             if is_like {
@@ -174,7 +174,7 @@ impl<const W: usize> Poly<W> {
 
     /// From terms in any order, each there once and none of them 0.
     pub fn from_different(mut terms: Vec<(Monomial<W>, Rational)>) -> Self {
-        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
+        terms.sort_unstable_by_key(|t| t.0);
         Poly(terms)
     }
 
