@@ -204,14 +204,15 @@ impl<'a> Table<'a> {
             }
             let open =
                 (0..self.rows.len()).filter(|&i| self.chosen[i].is_none() && self.rows[i].contains_key(&c));
-            // What is to go goes first, what is to stay last; then what is simple to divide by.
+            // What is to go goes first, what is to stay last; then what is of the same link, or near, and what is simple to divide by.
             let rank = |&i: &usize| {
                 let by = own[i].map_or(1, |o| match (dropped.contains(&o), kept.contains(&o) && o != c) {
                     (true, _) => 0,
                     (false, false) => 1,
                     (false, true) => 2,
                 });
-                (by, weight(self.rows[i][&c]), i)
+                let far = own[i].map_or(0, |o| self.columns[o].1.abs_diff(self.columns[c].1));
+                (by, far, weight(self.rows[i][&c]), i)
             };
             let Some(row) = open.min_by_key(rank) else {
                 let terms = (0..self.rows.len()).filter_map(|i| {

@@ -25,7 +25,7 @@ fn groupings_of_the_rx90_with_other_representatives() {
     assert_eq!(model.parameters.len(), 36);
     assert_eq!(model.minimality, Minimality::Proved);
     let s = Expr::symbol;
-    // XXR6 = XX6 − YY6 with the other sign; M4 stands for the sum of the masses behind and what that is grouped with.
+    // XXR6 = XX6 − YY6 with the other sign; M4 stands for the sum of the masses behind in the place of MY3, the nearest.
     assert!(equal(shown(&model, "YYR6"), s("YY6") - s("XX6")).is_equal());
     let by_mass = shown(&model, "MR4");
     let alone = by_mass.substitute(|x| (*x.name() != *"M4").then_some(Expr::int(0)));
@@ -34,6 +34,7 @@ fn groupings_of_the_rx90_with_other_representatives() {
         by_mass.substitute(|x| Some(Expr::int(i64::from(is_mass(x)))).filter(|_| x.name().starts_with('M')));
     assert!(equal(alone, s("M4")).is_equal(), "{by_mass}");
     assert!(!heavy.is_zero(), "{by_mass}");
+    assert!(by_mass.symbols().contains(&Symbol::new("MY3")), "{by_mass}");
     assert!(model.parameters.iter().all(|p| !p.symbol.name().starts_with("XXR6")));
     for seed in 0..2 {
         assert!(!differs(&formulas, &model, seed));
@@ -47,6 +48,15 @@ fn programs_in_other_representatives() {
     let model = DynamicModel::derive_for(&d, &wanted(&["YY2", "YY3"], &[])).unwrap();
     assert_eq!(model.ground, Ground::Proved);
     assert_eq!(model.base.parameters.len(), 15);
+    for name in ["YYR2", "YYR3"] {
+        let letters = name.replace('R', "");
+        let other = Symbol::new(&letters.replace('Y', "X"));
+        let value = shown(&model.base, name);
+        assert!(
+            value.symbols().contains(&Symbol::new(&letters)) && value.symbols().contains(&other),
+            "{value}"
+        );
+    }
     let plain = DynamicModel::derive(&d);
     assert_eq!(plain.torques.count().cost(), model.torques.count().cost(), "what is constant is apart");
 }
