@@ -8,7 +8,7 @@ use super::base::{BaseModel, BaseParameter, named_apart};
 use super::grouping::Grouped;
 use super::model::Formulas;
 use crate::geometry::PARAMETERS;
-use denavit_symbolic::{Expr, Symbol, equal, readable};
+use denavit_symbolic::{Expr, Node, Symbol, equal, readable};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::fmt;
 
@@ -177,7 +177,7 @@ impl<'a> Table<'a> {
     }
 
     fn simple(&self, e: Expr) -> Expr {
-        readable::simplify(e, self.order).map_or(e, |s| s.expr)
+        cancelled(readable::simplify(e, self.order).map_or(e, |s| s.expr))
     }
 
     fn choose(&mut self, wanted: &Representatives) -> Result<(), NoBasis> {
@@ -270,6 +270,36 @@ impl<'a> Table<'a> {
         }
         self.rows[row] = leading;
         self.chosen[row] = Some(column);
+    }
+}
+
+/// A quotient without the factors that both of its parts have.
+fn cancelled(e: Expr) -> Expr {
+    let (over, under) = match e.node() {
+        Node::Neg(a) => return -cancelled(a),
+        Node::Div(a, b) => (factors(a), factors(b)),
+        _ => return e,
+    };
+    let (mut over, mut left) = (over, vec![]);
+    for f in under {
+        match over.iter().position(|g| *g == f) {
+            Some(place) => {
+                over.remove(place);
+            }
+            None => left.push(f),
+        }
+    }
+    let product = |all: Vec<Expr>| all.into_iter().fold(Expr::int(1), |all, f| all * f);
+    product(over) / product(left)
+}
+
+/// The factors of a product, powers as often as they count.
+fn factors(e: Expr) -> Vec<Expr> {
+    match e.node() {
+        Node::Mul(a, b) => [factors(a), factors(b)].concat(),
+        Node::Neg(a) => [vec![Expr::int(-1)], factors(a)].concat(),
+        Node::Pow(a, n) if n > 0 => vec![a; n.unsigned_abs() as usize],
+        _ => vec![e],
     }
 }
 

@@ -34,6 +34,9 @@ fn groupings_of_the_rx90_with_other_representatives() {
     let lever = s("RL4");
     let value = masses + (s("MY3") + s("MZ4")) / lever;
     assert!(equal(by_mass, value).is_equal(), "{by_mass}");
+    // What is divided by and multiplied with is neither.
+    let near = shown(&model, "XXR3").to_string();
+    assert!(!near.contains('/') && near.contains("XX3"), "{near}");
     assert!(model.parameters.iter().all(|p| !p.symbol.name().starts_with("XXR6")));
     for seed in 0..2 {
         assert!(!differs(&formulas, &model, seed));
