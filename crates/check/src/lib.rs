@@ -164,6 +164,7 @@ pub fn check(
     let known = directions::Known::of(&plan.subjects);
     let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| known.has(name));
     let mut lost = vec![];
+    let computed = scripts::computed(text, &programs, &|name| plan.is_joint(name));
     let respelled = scripts.map(|mut scripts| {
         scripts.join(&mut document);
         lost = std::mem::take(&mut scripts.lost);
@@ -228,6 +229,7 @@ pub fn check(
     let of_arm = reaches::judged(text, &plan, &walked, &claims);
     claims.extend(of_arm);
     let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
+    unjudged.extend(unjudged::passed_over(computed, &claims, &unjudged));
     unjudged.extend(of_dynamics);
     unjudged.extend(givens::unused(text, &plan, &walked, &claims));
     unjudged.sort_by_key(|u| (u.span.start, u.span.end));

@@ -6,7 +6,7 @@ use super::outcome::{Claim, Entry, Finding};
 use super::plan::{Plan, Walked};
 use super::subject::Subject;
 use denavit_reading::slip::Points;
-use denavit_symbolic::{Expr, equal};
+use denavit_symbolic::{Expr, Symbol, equal};
 
 /// A claim for each name that the document gives the distance of the hand from the first axis, or from the origin, or a
 /// determinant, as a formula of the joints.
@@ -26,19 +26,23 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
         if open.is_empty() {
             continue;
         }
-        let known = lengths(subject, text);
+        // Lengths of which the table, or a program, has the numbers.
+        let numbers = |e: Expr| e.substitute(|s| subject.description.exact_value(s));
+        let known: Vec<Expr> = lengths(subject, text).into_iter().map(numbers).collect();
         let mut points = Points::new(43);
         for defined in open {
             // A formula of the pose is what it is told to be, whatever that is.
             let names = walked.inverse_names_of(number);
-            let is_of_arm = read(text, &defined.span, names).is_ok_and(|s| {
-                let d = &subject.description;
-                s.value().symbols().iter().all(|s| joints.contains(&(*s).into()) || d.parameter(*s).is_some())
-            });
-            let value = points.value(defined.value);
-            let same = known.iter().find(|e| {
-                value.is_some() && points.value(**e) == value && equal(**e, defined.value).is_equal()
-            });
+            let d = &subject.description;
+            let is_known = |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some();
+            // What only a program says is known by its value.
+            let told = read(text, &defined.span, names).map_or(defined.value, |s| s.value());
+            let is_of_arm = told.symbols().iter().all(is_known);
+            let own = numbers(defined.value);
+            let value = points.value(own);
+            let same = known
+                .iter()
+                .find(|e| value.is_some() && points.value(**e) == value && equal(**e, own).is_equal());
             if let Some(wanted) = same.filter(|_| is_of_arm) {
                 found.push(Claim {
                     span: defined.statement.clone(),
@@ -48,7 +52,7 @@ pub(super) fn judged(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
                         place: None,
                         span: defined.span.clone(),
                         finding: Finding::Equal { unless_zero: vec![] },
-                        identities: vec![[defined.value, *wanted]],
+                        identities: vec![[own, *wanted]],
                     }],
                     instead: None,
                     remarks: vec![],

@@ -86,6 +86,21 @@ pub(super) fn listed(
     found
 }
 
+/// The lines of programs of which no claim and nothing in a list says anything.
+pub(super) fn passed_over(
+    computed: Vec<(Range<usize>, String)>,
+    claims: &[Claim],
+    listed: &[Unjudged],
+) -> Vec<Unjudged> {
+    // A function that is listed as a whole says nothing of its lines.
+    let is_line = |u: &&Unjudged| !matches!(u.why, Skipped::Unreadable(Unreadable::NothingTold(_)));
+    let said: Vec<&Range<usize>> =
+        claims.iter().map(|c| &c.span).chain(listed.iter().filter(is_line).map(|u| &u.span)).collect();
+    let is_new = |span: &Range<usize>| !said.iter().any(|s| s.start < span.end && span.start < s.end);
+    let new = computed.into_iter().filter(|c| is_new(&c.0));
+    new.map(|(span, name)| Unjudged { span, why: Skipped::OfProgram(name) }).collect()
+}
+
 /// Why a statement was not judged.
 fn why(walked: &Walked, statement: &Statement) -> Skipped {
     let span = &statement.span;

@@ -45,7 +45,12 @@ impl Program<'_> {
         cell: &Cell,
         shown: &str,
     ) -> Option<Assertion> {
-        if is_determinant(function) && function.returned.len() == 1 {
+        let named = function.returned.first().and_then(|r| r.name.as_deref());
+        let by_name = || {
+            let source = self.text.get(function.span.clone()).unwrap_or_default().to_lowercase();
+            named.is_some_and(|n| determinant_named(n).is_some()) && source.contains("determinant")
+        };
+        if function.returned.len() == 1 && (is_determinant(function) || by_name()) {
             let lacking = lacking(function, self.text, self.lexis, self.subject);
             let given = |e: Expr| self.with_numbers(e, in_radians(cell.value));
             let wanted = determinant_like(self.subject, in_radians(cell.value), &lacking, &given)?;

@@ -35,7 +35,8 @@ pub(super) fn defined(
         let is_judged = assertions.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
         let is_own = a.span.start <= cell.span.start && cell.span.end <= a.span.end;
         // `c12 = cos(q1 + q2)` is an abbreviation.
-        let is_plain = matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_));
+        let is_plain =
+            matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_)) && !a.name.ends_with(['x', 'y', 'z']);
         if is_judged || !is_own || is_plain || matches!(printed.kind, SyntaxKind::Name(_)) {
             continue;
         }

@@ -556,7 +556,7 @@ impl Program<'_> {
     }
 
     /// What is wanted with the numbers that the program has for lengths, where what is printed has none of these as letters.
-    fn with_numbers(&self, wanted: Expr, printed: Expr) -> Expr {
+    pub(super) fn with_numbers(&self, wanted: Expr, printed: Expr) -> Expr {
         let d = &self.subject.description;
         if printed.symbols().iter().any(|s| d.parameter(*s).is_some()) {
             return wanted;

@@ -7,8 +7,8 @@ use crate::custom;
 use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::walk::Assertion;
-use denavit_reading::code::{Cell, Reading, Value};
-use denavit_symbolic::Expr;
+use denavit_reading::code::{Cell, Reading, Value, is_force};
+use denavit_symbolic::{Expr, equal};
 use std::ops::Range;
 
 impl Program<'_> {
@@ -27,22 +27,50 @@ impl Program<'_> {
         if !is_called || rows.len() != n || rows.iter().any(|r| r.len() != 1) {
             return None;
         }
+        let wanted = self.told_torques(rows).or_else(|| self.torques_of_argument(rows))?;
+        let matrix = Matrix(wanted.into_iter().map(|e| vec![Some(e)]).collect());
+        let pieces = self.compare(rows, &matrix)?;
+        Some(self.assertion(shown, About::Matrix(Meaning::Torques), span, pieces, Some(matrix)))
+    }
+
+    /// The torques for the load that the document tells, if it is in what is printed.
+    fn told_torques(&self, rows: &[Vec<Cell>]) -> Option<Vec<Expr>> {
         let torque = |k: usize| {
             let names = ["τ", "M", "C", "Γ"].map(|letter| format!("{letter}{k}"));
             let is_known = |name: &&String| self.lexis.is_by_custom(name);
             names.iter().find(is_known).and_then(|name| self.lexis.names.lookup(name))
         };
-        let wanted: Vec<Expr> = (1..=n).map(torque).collect::<Option<_>>()?;
+        let wanted: Vec<Expr> = (1..=rows.len()).map(torque).collect::<Option<_>>()?;
         // Of the load in the program's letters.
         let loads = wanted.iter().flat_map(|e| e.symbols());
         let loads: Vec<_> = loads.filter(|s| self.lexis.is_by_custom(&s.name())).collect();
         let printed: Vec<_> = rows.iter().flatten().flat_map(|c| c.value.symbols()).collect();
-        if !loads.iter().any(|s| printed.contains(s)) {
-            return None;
-        }
-        let matrix = Matrix(wanted.into_iter().map(|e| vec![Some(e)]).collect());
-        let pieces = self.compare(rows, &matrix)?;
-        Some(self.assertion(shown, About::Matrix(Meaning::Torques), span, pieces, Some(matrix)))
+        loads.iter().any(|s| printed.contains(s)).then_some(wanted)
+    }
+
+    /// The torques for a force whose components are an argument, held or exerted: as most of what is printed has it.
+    fn torques_of_argument(&self, rows: &[Vec<Cell>]) -> Option<Vec<Expr>> {
+        let printed: Vec<Expr> = rows.iter().flatten().map(|c| in_radians(c.value)).collect();
+        let symbols = printed.iter().flat_map(|e| e.symbols());
+        let stem = symbols.into_iter().find_map(|s| {
+            let name = s.name().to_string();
+            name.strip_suffix(['x', 'y', 'z']).filter(|stem| is_force(stem)).map(String::from)
+        })?;
+        let zero = Expr::int(0);
+        let force = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{stem}{axis}")));
+        let exerted = self.subject.torques(&[force[0], force[1], force[2], zero, zero, zero]);
+        let held: Vec<Expr> = exerted.iter().map(|e| -*e).collect();
+        let right = |wanted: &[Expr]| {
+            let pairs = printed.iter().zip(wanted);
+            pairs.filter(|(a, b)| equal(**a, self.with_numbers(**b, **a)).is_equal()).count()
+        };
+        let (best, count) = [exerted, held]
+            .into_iter()
+            .map(|w| (right(&w), w))
+            .rev()
+            .max_by_key(|w| w.0)
+            .map(|w| (w.1, w.0))?;
+        (2 * count > rows.len()).then_some(best)
     }
 
     /// The velocity of the hand that a function gives back, which its name says.

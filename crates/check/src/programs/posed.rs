@@ -187,7 +187,8 @@ fn joint_of(name: &str, lexis: &Lexis, subject: &Subject) -> Option<Expr> {
     if let Some(index) = name.strip_suffix(']').and_then(|n| n.split_once('[')) {
         let k: usize = index.1.parse().ok()?;
         let joint = subject.joints().get(k).copied()?;
-        let is_own = || known(&format!("{}{}", index.0, k + 1)) == Some(joint);
+        // Numbered from 1, or as the table itself writes them.
+        let is_own = || [k + 1, k].iter().any(|n| known(&format!("{}{n}", index.0)) == Some(joint));
         return (is_vector(index.0) || is_own()).then_some(joint);
     }
     if let Some(joint) = known(name) {

@@ -233,6 +233,34 @@ impl Walk<'_> {
         });
     }
 
+    /// A helper of the joints, or its square, that a statement makes a formula of the pose, `w_x = p_x - d_6 r_13`: in inverse formulas
+    /// it is that from here on, if both are the same.
+    pub(super) fn know_in_pose(&mut self, statement: &Statement) {
+        let spans: Vec<&Range<usize>> = statement.sides.iter().map(|s| &s.span).collect();
+        let (Some(first), true) = (spans.first(), spans.len() > 1) else { return };
+        let source = self.source(first);
+        let bare = ["^2", "^{2}", "²", "**2"].iter().find_map(|p| source.strip_suffix(p));
+        let (name, power) = bare.map_or((source, 1), |b| (b.trim(), 2));
+        let joints = self.subject.joints();
+        let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+        let inverse = |span: &Range<usize>| Some(self.lexis.inverse_formula(self.text, span).ok()?.value());
+        let value = |span: &Range<usize>| Some(self.lexis.formula(self.text, span).ok()?.value());
+        let known = self.lexis.is_helper(name).then(|| self.lexis.names.lookup(name)).flatten();
+        let in_joints = self.lexis.inverse.lookup(name).is_some_and(moves);
+        let Some(known) = known.filter(|_| in_joints) else { return };
+        // Joints that were found before may stand in it.
+        let own = known.symbols();
+        let is_apart = |e: Expr| !e.symbols().iter().any(|s| joints.contains(&(*s).into()) && own.contains(s));
+        let posed = spans.iter().skip(1).find_map(|span| {
+            let pose = inverse(span).filter(|e| self.speaks_of_pose(span) && is_apart(*e))?;
+            denavit_symbolic::equal(known.powi(power), value(span)?).is_equal().then_some(pose)
+        });
+        if let Some(pose) = posed {
+            let name = plain_name(name);
+            self.lexis.define_inverse(&name, if power == 2 { pose.sqrt() } else { pose });
+        }
+    }
+
     /// What a name is whose function a side is: `cos ε = …`, `r² = …`; with the value that the name has then.
     pub(super) fn implied(&self, span: &Range<usize>, value: Expr) -> Option<(String, Expr)> {
         let open = Vocabulary::new().open(true);

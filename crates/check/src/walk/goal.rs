@@ -395,6 +395,48 @@ impl Walk<'_> {
         }
     }
 
+    /// Keeps coordinates in numbers that are to be reached, `(x, y, z) = (0.2, 0.45, 0.3)` behind `target`.
+    pub(super) fn aims_at_components(&mut self, statement: &Statement) -> bool {
+        let [left, right] = &statement.sides[..] else { return false };
+        let (Some(names), Some(numbers)) = (self.components(&left.span), self.components(&right.span)) else {
+            return false;
+        };
+        if names.len() != numbers.len() || !(self.in_inverse || self.tells_goal(statement)) {
+            return false;
+        }
+        let joints = self.subject.joints();
+        let target = |(name, number): (&Range<usize>, &Range<usize>)| {
+            let wanted = self.lexis.formula(self.text, name).ok()?.value();
+            let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
+            let value = self.constant(self.source(number))?.eval(|_| None).ok()?;
+            let is_place = moves && !joints.contains(&wanted);
+            is_place.then(|| Target::new(&self.subject, wanted, value, self.half(number)))
+        };
+        let Some(targets) = names.iter().zip(&numbers).map(target).collect::<Option<Vec<_>>>() else {
+            return false;
+        };
+        self.look_for_joints();
+        self.aim_at(statement, targets);
+        self.taken.push(statement.span.clone());
+        true
+    }
+
+    /// The parts of a tuple in print, `(x, y)`.
+    fn components(&self, span: &Range<usize>) -> Option<Vec<Range<usize>>> {
+        let text = self.text.get(span.clone())?;
+        let inner = text.trim().strip_prefix('(')?.strip_suffix(')')?;
+        let start = span.start + text.find('(')? + 1;
+        let mut at = start;
+        let mut found = vec![];
+        for part in inner.split(',') {
+            let bare = part.trim_matches(|c: char| c.is_whitespace() || matches!(c, '\\' | '~'));
+            let from = at + (bare.as_ptr() as usize - part.as_ptr() as usize);
+            found.push(from..from + bare.len());
+            at += part.len() + 1;
+        }
+        (found.len() > 1 && found.iter().all(|f| !f.is_empty())).then_some(found)
+    }
+
     /// True where the word before a statement says that it names a point.
     fn is_point(&self, statement: &Statement) -> bool {
         const POINTS: [&str; 12] = [

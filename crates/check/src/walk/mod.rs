@@ -339,9 +339,13 @@ impl<'a> Walk<'a> {
             }
         }
         self.recall_before(statement.span.start);
+        if self.aims_at_components(statement) {
+            return;
+        }
         if statement.sides.iter().flat_map(|s| &s.parts).all(|p| matches!(p, Part::Text(_)))
             && self.scalars(statement, claim)
         {
+            self.know_in_pose(statement);
             return;
         }
         self.matrices(statement, claim);

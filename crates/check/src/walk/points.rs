@@ -60,6 +60,40 @@ pub(in super::super) fn points(
     let is_told = |d: &Defined| found.iter().any(|a| a.span == d.statement);
     let open: Vec<&Defined> = defined.iter().take(MOST).filter(is_free).filter(|d| !is_told(d)).collect();
     found.extend(distances(&open, subjects));
+    found.extend(speeds(&open, subjects));
+    found
+}
+
+/// Names whose values are components of the hand's velocity, along or about an axis of the base, or its speed.
+fn speeds(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
+    let mut points = Points::new(71);
+    let mut found = vec![];
+    for d in open {
+        let Some(subject) = subjects.get(d.subject) else { continue };
+        let rates = subject.rates();
+        let turns = |e: Expr| e.symbols().iter().any(|s| rates.contains(&(*s).into()));
+        // A rate by itself tells nothing.
+        if !turns(d.value) || d.value.as_symbol().is_some() {
+            continue;
+        }
+        let velocity = subject.velocity();
+        let speed = |part: &[Expr]| part.iter().fold(Expr::int(0), |sum, e| sum + e.powi(2));
+        let (value, known) = match d.value.node() {
+            Node::Sqrt(inner) => (inner, vec![speed(&velocity[..2]), speed(&velocity[..3])]),
+            _ => (d.value, velocity),
+        };
+        let own = points.value(value);
+        let same = known
+            .into_iter()
+            .find(|e| turns(*e) && own.is_some() && points.value(*e) == own && equal(*e, value).is_equal());
+        if let Some(wanted) = same {
+            let printed = None;
+            found.push(equation(
+                d,
+                Pair { place: None, span: d.span.clone(), printed, value, wanted, also: vec![] },
+            ));
+        }
+    }
     found
 }
 
@@ -146,6 +180,10 @@ fn equation(d: &Defined, pair: Pair) -> Assertion {
 
 /// The claims that a point makes.
 fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
+    let velocity = velocity_of_hand(point, subject);
+    if !velocity.is_empty() {
+        return velocity;
+    }
     let moves = |e: Expr| e.symbols().iter().any(|s| subject.joints().contains(&(*s).into()));
     // A tool that is a point of its own is looked at behind the frames.
     let tool = subject.last() + 1;
@@ -189,6 +227,27 @@ fn claims(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
         return coordinates.map(|(axis, d)| assertion(d, origin[*axis], &frame)).collect();
     }
     axis_of_frame(point, subject)
+}
+
+/// The claims that components of the hand's velocity make, `vx`, `vy`, `vz`, where at least half of them are that velocity's.
+fn velocity_of_hand(point: &[(usize, &Defined)], subject: &Subject) -> Vec<Assertion> {
+    let rates = subject.rates();
+    let turns = |e: Expr| e.symbols().iter().any(|s| rates.contains(&(*s).into()));
+    if !point.iter().any(|(_, d)| turns(d.value)) {
+        return vec![];
+    }
+    let all = subject.velocity();
+    let agrees = |wanted: &[Expr]| {
+        let right =
+            |(axis, d): &&(usize, &Defined)| turns(d.value) && equal(d.value, wanted[*axis]).is_equal();
+        point.iter().filter(right).count()
+    };
+    let parts = [0, 3].into_iter().filter_map(|first| all.get(first..first + 3));
+    let Some(wanted) = parts.max_by_key(|wanted| agrees(wanted)) else { return vec![] };
+    if 2 * agrees(wanted) < point.len() {
+        return vec![];
+    }
+    point.iter().map(|(axis, d)| equation(d, held(d, wanted[*axis]))).collect()
 }
 
 /// The claims that the components of an axis make, `u_x`, `u_y`, `u_z`: all, or all but one, are those of one axis of a frame.

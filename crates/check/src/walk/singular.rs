@@ -184,7 +184,7 @@ impl Walk<'_> {
 }
 
 /// Words of where the arm is singular.
-const VANISHING: [&str; 13] = [
+const VANISHING: [&str; 17] = [
     "singul",
     "singol",
     "vanish",
@@ -198,6 +198,10 @@ const VANISHING: [&str; 13] = [
     "rang ",
     "rank ",
     "rank\n",
+    "at its boundary",
+    "at the boundary",
+    "over the shoulder",
+    "dead point",
 ];
 /// Words of determinants, which vanish there.
 const DETERMINANTS: [&str; 5] = ["determinant", "déterminant", "det j", "det(", "\\det"];

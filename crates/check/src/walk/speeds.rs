@@ -34,6 +34,25 @@ const JOINT: [&str; 16] = [
     "as",
 ];
 
+/// Words that say that joints do not move.
+const STILL: [&str; 14] = [
+    "parad", "at rest", "still", "locked", "not move", "fixed", "ruht", "ruhen", "fest", "ferm", "quiet",
+    "bloqu", "immobile", "stil",
+];
+
+/// The place of the joint, from 0, that the first ordinal of some words names: `on the second axis`.
+fn ordinal(words: &str) -> Option<usize> {
+    const ORDINALS: [&[&str]; 4] = [
+        &["first", "erste", "premi", "primer", "primeir", "prima", "primo", "eerste"],
+        &["second", "zweite", "deuxi", "segund", "seconda", "tweede"],
+        &["third", "dritte", "troisi", "tercer", "terceir", "terza", "terzo", "derde"],
+        &["fourth", "vierte", "quatri", "cuart", "quart", "vierde"],
+    ];
+    let lower = words.to_lowercase();
+    let mut said = lower.split(|c: char| !c.is_alphabetic()).filter(|w| w.len() > 4);
+    said.find_map(|w| ORDINALS.iter().position(|all| all.iter().any(|o| w.starts_with(o))))
+}
+
 /// A number with its unit, if it has one, and where both stand.
 struct Quantity<'a> {
     number: &'a str,
@@ -51,6 +70,9 @@ impl Walk<'_> {
         }
         let kinds: Vec<JointKind> = self.subject.description.variables().iter().map(|v| v.kind).collect();
         let n = kinds.len();
+        if self.told_one_by_one(line, &kinds) {
+            return;
+        }
         // `0.5 m/s` is none of a joint that turns.
         let fits = |kind: JointKind, unit: &str| unit.ends_with("m/s") == (kind == JointKind::Prismatic);
         for run in runs(line) {
@@ -74,6 +96,50 @@ impl Walk<'_> {
                 self.assign_list(List::Rates, &all);
             }
         }
+    }
+
+    /// Rates that words give joint by joint, each by an ordinal behind it or a name before it: `0.8 rad/s na primeira junta e 0.5 rad/s
+    /// na segunda`, `q1 at 10 °/s, q2 and q3 at rest`. Joints of which nothing is said keep their rates, and are still where words say
+    /// so.
+    fn told_one_by_one(&mut self, line: &str, kinds: &[JointKind]) -> bool {
+        let all: Vec<Quantity> = runs(line).into_iter().flatten().collect();
+        let quantities: Vec<&Quantity> = all.iter().filter(|q| q.unit.is_some()).collect();
+        let mut given: Vec<Option<String>> = vec![None; kinds.len()];
+        for (k, q) in quantities.iter().enumerate() {
+            let unit = q.unit.unwrap_or_default();
+            let next = quantities.get(k + 1).map_or(line.len(), |n| n.start);
+            let behind = line.get(q.end..next).unwrap_or_default();
+            let before = line.get(..q.start).unwrap_or_default();
+            let Some(joint) = ordinal(behind).or_else(|| self.joint_before(before)) else { return false };
+            let fits =
+                kinds.get(joint).is_some_and(|kind| unit.ends_with("m/s") == (*kind == JointKind::Prismatic));
+            if !fits || given[joint].is_some() {
+                return false;
+            }
+            given[joint] = Some(format!("{} {unit}", q.number));
+        }
+        if quantities.is_empty() {
+            return false;
+        }
+        let lower = line.to_lowercase();
+        let rests = STILL.iter().chain(&ALONE).any(|w| lower.contains(w));
+        let rates = self.subject.rates();
+        for (rate, value) in rates.iter().zip(&given) {
+            let told = value.as_deref().or(Some("0").filter(|_| rests));
+            if let (Some(symbol), Some(value)) = (rate.as_symbol(), told.and_then(|v| self.constant(v))) {
+                self.at.give(symbol, value);
+            }
+        }
+        true
+    }
+
+    /// The joint whose name stands before a number, with a short word between: `q1 a`, `θ2 mit`.
+    fn joint_before(&self, before: &str) -> Option<usize> {
+        const WITH: [&str; 9] = ["a", "at", "mit", "with", "con", "com", "à", "met", "bei"];
+        let mut words = before.split_whitespace().rev();
+        let name = words.next().filter(|w| WITH.contains(w)).and(words.next())?;
+        let value = self.lexis.names.lookup(name.trim_matches(['`', '$', ',', '(']))?;
+        self.subject.joints().iter().position(|q| *q == value)
     }
 
     /// What a lone letter is by the unit of its number, where the joints' rates are known: ω of an arm whose hand turns about one

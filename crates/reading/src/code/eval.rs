@@ -168,8 +168,13 @@ impl<'a> Machine<'a> {
 
     /// All joints, as the argument of a function.
     pub fn joint_vector(&self, span: &Span) -> Object<'a> {
+        self.vector_of(self.joints, span)
+    }
+
+    /// A vector of these, as the argument of a function.
+    pub fn vector_of(&self, entries: &[Expr], span: &Span) -> Object<'a> {
         let sort = if self.language == Dialect::Matlab { Sort::Matlab } else { Sort::Array };
-        object(Matrix::vector(self.joints.iter().map(|&j| Scalar::of(j, span)).collect(), sort))
+        object(Matrix::vector(entries.iter().map(|&e| Scalar::of(e, span)).collect(), sort))
     }
 
     /// The value of a variable: of the function, of those around it, or of the script.

@@ -409,26 +409,36 @@ fn arguments<'a>(
             None => {}
         }
     }
-    // Beside all joints as many more: how fast they move.
-    let takes_all = || {
-        let joint = |p: &tree::Parameter| (machine.names)(&p.name).filter(|e| machine.joints.contains(e));
-        d.parameters.iter().filter_map(joint).count() == machine.joints.len()
-    };
+    // Beside joints as many more as there are: how fast they move.
+    let known: Vec<Expr> = d.parameters.iter().filter_map(|p| (machine.names)(&p.name)).collect();
+    let takes_all = || machine.joints.iter().all(|q| known.contains(q));
     let rate = |q: &Expr| (machine.names)(&format!("dot{}", q.as_symbol()?.name()));
+    let rates: Option<Vec<Expr>> = machine.joints.iter().map(rate).collect();
     if !unknown.is_empty()
         && unknown.len() < machine.joints.len() + 1
-        && takes_all()
-        && let Some(rates) = machine.joints.iter().map(rate).collect::<Option<Vec<Expr>>>()
+        && let Some(rates) = &rates
+        && (takes_all() || has_joint && rates.iter().any(|r| known.contains(r)))
     {
         // Those that are known keep their meaning, the others are the rest in their order.
-        let known: Vec<Expr> = d.parameters.iter().filter_map(|p| (machine.names)(&p.name)).collect();
-        let open: Vec<Expr> = rates.into_iter().filter(|r| !known.contains(r)).collect();
+        let open: Vec<Expr> = rates.iter().copied().filter(|r| !known.contains(r)).collect();
         if open.len() == unknown.len() {
             for (p, rate) in unknown.iter().zip(open) {
                 slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(rate, &p.span)));
             }
             unknown.clear();
         }
+    }
+    // Beside the vector of all joints that of their rates, or of a force.
+    if let [q, others @ ..] = &unknown[..]
+        && !others.is_empty()
+        && !has_joint
+        && is_vector(&q.name)
+        && let Some(vectors) =
+            others.iter().map(|p| beside(p, rates.as_deref(), machine)).collect::<Option<Vec<_>>>()
+    {
+        slots.insert(q.name.as_str(), machine.joint_vector(&q.span));
+        slots.extend(others.iter().map(|p| p.name.as_str()).zip(vectors));
+        unknown.clear();
     }
     match unknown.as_slice() {
         [] => {}
@@ -451,6 +461,39 @@ fn arguments<'a>(
         }
     }
     Ok(slots)
+}
+
+/// What a vector beside that of all joints is by its name: the rates of these, or the components of a force.
+fn beside<'a>(p: &tree::Parameter, rates: Option<&[Expr]>, machine: &Machine<'a>) -> Option<Object<'a>> {
+    const RATES: [&str; 16] = [
+        "qd",
+        "dq",
+        "qdot",
+        "q_dot",
+        "qp",
+        "dqdt",
+        "thetad",
+        "dtheta",
+        "theta_dot",
+        "thetadot",
+        "thd",
+        "dth",
+        "w",
+        "omega",
+        "rates",
+        "speeds",
+    ];
+    if RATES.contains(&p.name.as_str()) {
+        return Some(machine.vector_of(rates?, &p.span));
+    }
+    let force =
+        is_force(&p.name).then(|| ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{}{axis}", p.name))));
+    Some(machine.vector_of(&force?, &p.span))
+}
+
+/// True for a name that usually stands for the components of a force on the hand.
+pub fn is_force(name: &str) -> bool {
+    matches!(name, "f" | "F" | "force" | "load" | "fext" | "Fext" | "F_ext" | "f_ext" | "F_tip" | "f_tip")
 }
 
 /// True for a name that usually stands for all joints.

@@ -159,8 +159,14 @@ impl<'a> Machine<'a> {
         right: &Span,
         target: &Span,
     ) -> Object<'a> {
-        let is_joints = self.posed.is_some() && eval::VECTORS.contains(&name) && self.is_recorded();
-        let joint = step.single().filter(|_| is_joints).and_then(|k| self.joints.get(k).map(|q| (k, *q)));
+        let posed = self.posed.filter(|_| self.is_recorded());
+        // Under a name that vectors of joints have, or the one that the table has for them.
+        let is_own = |k: usize, q: Expr| {
+            eval::VECTORS.contains(&name)
+                || posed.is_some_and(|p| (p.joint)(&format!("{name}[{k}]")) == Some(q))
+        };
+        let single = step.single().filter(|_| posed.is_some());
+        let joint = single.and_then(|k| self.joints.get(k).map(|q| (k, *q))).filter(|&(k, q)| is_own(k, q));
         let (Some((k, joint)), Object::Scalar(s)) = (joint, &value) else { return value };
         if s.expr.symbols().is_empty() {
             return value;

@@ -204,8 +204,11 @@ impl Reader<'_> {
                     let close = self.closing(k, bracket);
                     let is_remark = depth == 0
                         && last.is_some()
-                        && close
-                            .is_none_or(|c| (k + 1..c).any(|i| self.is_prose(i)) || self.is_condition(k, c));
+                        && close.is_none_or(|c| {
+                            (k + 1..c).any(|i| self.is_prose(i))
+                                || self.is_condition(k, c)
+                                || self.is_area(k, c)
+                        });
                     if is_remark {
                         return last;
                     }
@@ -282,6 +285,15 @@ impl Reader<'_> {
         (open..close).any(|k| self.kind(k) == Some(Kind::Other))
     }
 
+    /// True for brackets around the unit of an area, `(mm²)`, which a determinant has.
+    fn is_area(&self, open: usize, close: usize) -> bool {
+        let inner = match (self.tokens.get(open), self.tokens.get(close)) {
+            (Some(a), Some(b)) => cut(self.text, &(a.span.end..b.span.start)),
+            _ => "",
+        };
+        inner.contains(['²', '^']) && words::is_unit_alone(inner)
+    }
+
     /// True for a letter that joins two formulas in some language: `k1 = a y k2 = b`.
     fn joins(&self, at: usize) -> bool {
         matches!(self.shown(at), "y" | "e" | "o" | "u" | "i" | "и")
@@ -342,6 +354,7 @@ mod tests {
             ("the tip is at q = (30°, 60°, 0.2 m).", vec!["q = (30°, 60°, 0.2 m)"]),
             ("A1(q1)⁻¹·U = A2·A3, third row", vec!["A1(q1)⁻¹·U = A2·A3"]),
             ("its distance is r = √(x² + y²) = 0.4, and", vec!["r = √(x² + y²) = 0.4"]),
+            ("as det J = 11400 sin(t2) (mm²) goes to zero", vec!["det J = 11400 sin(t2)"]),
             ("there is nothing here", vec![]),
         ] {
             let found: Vec<&str> = formulas(line, &(0..line.len())).into_iter().map(|s| &line[s]).collect();

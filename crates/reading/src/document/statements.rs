@@ -215,7 +215,8 @@ impl<'t> Reader<'t> {
             let next = nodes.get(i + 1..).unwrap_or(&[]);
             // `with L_1 = 0.45 m` may begin a line.
             let apart = node.gap > Gap::None || i == 0 && next.first().is_some_and(|n| n.gap > Gap::None);
-            let word = node.is(Kind::Word) && apart && words::is_link(&shown.to_lowercase());
+            let joins = || related && i > 0 && self.joins(&nodes[..=i], next);
+            let word = node.is(Kind::Word) && apart && (words::is_link(&shown.to_lowercase()) || joins());
             let hard = match node.token() {
                 Some(Kind::Semicolon | Kind::Arrow) => true,
                 // `θ1 = 20°: cos θ5 = 0.5`
@@ -257,11 +258,29 @@ impl<'t> Reader<'t> {
         self.segment(nodes.get(first..).unwrap_or(&[]), manner, course);
     }
 
+    /// True for a letter behind a number or a unit that joins two formulas in some language: `x = 0.5 m e y = 0.2 m`.
+    fn joins(&self, nodes: &[Node], next: &[Node]) -> bool {
+        let [.., before, node] = nodes else { return false };
+        let shown = cut(self.text, &before.span);
+        let is_value = words::is_unit(shown) || shown.ends_with(|c: char| c.is_ascii_digit());
+        let is_name =
+            matches!(next, [name, relation, ..] if name.is(Kind::Word) && relation.relation().is_some());
+        is_value && is_name && matches!(cut(self.text, &node.span), "y" | "e" | "o" | "u" | "i" | "и")
+    }
+
+    /// The nodes behind `i.e.` or `d.h.` that they begin with.
+    fn without_that_is<'n>(&self, nodes: &'n [Node]) -> &'n [Node] {
+        let shown = |k: usize| nodes.get(k).map_or("", |n| cut(self.text, &n.span));
+        let letters = [shown(0), shown(2)].map(str::to_lowercase);
+        let is_it = matches!([&*letters[0], &*letters[1]], ["i", "e"] | ["d", "h"] | ["z", "b"] | ["e", "g"]);
+        if is_it && shown(1) == "." && shown(3) == "." { nodes.get(4..).unwrap_or(nodes) } else { nodes }
+    }
+
     /// One statement, or a piece of one.
     fn segment(&mut self, nodes: &[Node], manner: Manner, course: &mut Course) {
         let link = course.link.take();
         let amp = nodes.first().is_some_and(|n| n.is(Kind::Amp));
-        let nodes = trim(self.text, nodes);
+        let nodes = self.without_that_is(trim(self.text, nodes));
         let (nodes, aside) = self.without_aside(nodes);
         let (label, nodes) = self.split_label(nodes);
         let (Some(first), Some(last)) = (nodes.first(), nodes.last()) else { return };

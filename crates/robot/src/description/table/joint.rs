@@ -99,14 +99,20 @@ fn slide(row: &ReadRow, stems: &[String]) -> Option<String> {
         "hub",
         "telescope",
     ];
-    let [(name, _)] = &row.z.cell.symbols[..] else { return None };
-    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    let index = &name[stem.len()..];
-    let is_own = index.is_empty() || index.parse() == Ok(row.number);
-    let is_elsewhere = [&row.x, &row.alpha].into_iter().any(|c| c.cell.symbols.iter().any(|s| s.0 == *name));
-    let is_joint = !index.is_empty() && stems.iter().any(|s| s == stem);
-    ((LETTERS.contains(&stem) || is_joint) && is_own && row.theta.cell.symbols.is_empty() && !is_elsewhere)
-        .then(|| name.clone())
+    let is_joint = |name: &str| {
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let index = &name[stem.len()..];
+        // Beside another length, `z0 + z1`, only the number of the row tells.
+        let is_alone = row.z.cell.symbols.len() == 1;
+        let is_own = index.is_empty() && is_alone || index.parse() == Ok(row.number);
+        let cells = [&row.x, &row.alpha];
+        let is_elsewhere = cells.into_iter().any(|c| c.cell.symbols.iter().any(|s| s.0 == name));
+        let is_letter = LETTERS.contains(&stem) || !index.is_empty() && stems.iter().any(|s| s == stem);
+        is_letter && is_own && !is_elsewhere
+    };
+    let mut found = row.z.cell.symbols.iter().map(|s| &s.0).filter(|name| is_joint(name));
+    let name = found.next().filter(|_| row.theta.cell.symbols.is_empty())?;
+    found.all(|other| other == name).then(|| name.clone())
 }
 
 /// Says that a row slides.
