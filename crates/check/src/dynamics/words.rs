@@ -1,7 +1,7 @@
 //! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
 
 use super::letters::{Letters, role_of};
-use crate::subject::Subject;
+use crate::subject::{Subject, spellings as spelled};
 use denavit::description::JointKind;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol, greek};
@@ -259,9 +259,7 @@ pub(super) fn names(
             letters.iter().map(|l| format!("{l}{number}")).filter(|s| is_own(s)).collect();
         of.push(v.symbol.name().to_string());
         of.extend(subject.variables.iter().flatten().filter(|p| is_own(p)).map(|p| plain_name(p)));
-        if let Some(number) = of.iter().find_map(|s| s.strip_prefix("theta")).map(str::to_string) {
-            of.push(format!("θ{number}"));
-        }
+        of.extend(of.iter().flat_map(|s| spelled(s)).collect::<Vec<_>>());
         of.sort();
         of.dedup();
         spellings.extend(of.into_iter().map(|s| (k, s)));

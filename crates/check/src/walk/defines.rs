@@ -250,7 +250,8 @@ impl Walk<'_> {
         let Some(known) = known.filter(|_| in_joints) else { return };
         // Joints that were found before may stand in it.
         let own = known.symbols();
-        let is_apart = |e: Expr| !e.symbols().iter().any(|s| joints.contains(&(*s).into()) && own.contains(s));
+        let is_apart =
+            |e: Expr| !e.symbols().iter().any(|s| joints.contains(&(*s).into()) && own.contains(s));
         let posed = spans.iter().skip(1).find_map(|span| {
             let pose = inverse(span).filter(|e| self.speaks_of_pose(span) && is_apart(*e))?;
             denavit_symbolic::equal(known.powi(power), value(span)?).is_equal().then_some(pose)

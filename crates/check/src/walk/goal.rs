@@ -428,7 +428,9 @@ impl Walk<'_> {
         let start = span.start + text.find('(')? + 1;
         let mut at = start;
         let mut found = vec![];
-        for part in inner.split(',') {
+        // `\\,` is a blank.
+        let blank = inner.replace("\\,", "  ");
+        for part in blank.split(',') {
             let bare = part.trim_matches(|c: char| c.is_whitespace() || matches!(c, '\\' | '~'));
             let from = at + (bare.as_ptr() as usize - part.as_ptr() as usize);
             found.push(from..from + bare.len());

@@ -80,7 +80,7 @@ fn speeds(open: &[&Defined], subjects: &[Rc<Subject>]) -> Vec<Assertion> {
         let speed = |part: &[Expr]| part.iter().fold(Expr::int(0), |sum, e| sum + e.powi(2));
         let (value, known) = match d.value.node() {
             Node::Sqrt(inner) => (inner, vec![speed(&velocity[..2]), speed(&velocity[..3])]),
-            _ => (d.value, velocity),
+            _ => (d.value, [velocity.clone(), vec![speed(&velocity[..2]), speed(&velocity[..3])]].concat()),
         };
         let own = points.value(value);
         let same = known

@@ -22,6 +22,7 @@ mod statements;
 mod strangers;
 mod tables;
 mod told;
+mod unheard;
 mod unsupported;
 mod wild;
 
