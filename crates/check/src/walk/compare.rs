@@ -311,6 +311,10 @@ impl Walk<'_> {
     pub(super) fn compare_grid(&self, grid: &Grid, wanted: &Matrix, out: &mut Assertion) {
         let cells = self.cells(grid);
         let width = cells.iter().map(Vec::len).max().unwrap_or(0);
+        // `[x, y, z]^T` is a column.
+        let is_column = wanted.0.len() > 1 && wanted.0.iter().all(|row| row.len() == 1);
+        let turned = (is_column && cells.len() == 1 && width > 1).then(|| wanted.transposed());
+        let wanted = turned.as_ref().unwrap_or(wanted);
         let is_number = |cell: &Cell| match cell {
             Cell::Formulas(formulas) => formulas.iter().all(|f| f.1.value().symbols().is_empty()),
             Cell::LeftOut => true,

@@ -197,3 +197,17 @@ fn formulas_behind_words_and_before_units() {
                     The arm is over the shoulder where $a_2 c_2 + a_3 c_{23} = 0$.\n";
     is(boundary, None, &[("a_2 c_2 + a_3 c_{23}", RIGHT)]);
 }
+
+#[test]
+fn a_row_that_is_transposed_is_a_column() {
+    let text = |middle: &str| {
+        format!(
+            "DH (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | d1 | 0 | 90° |\n| 2 | θ2 | d2 | 0 | -90° |\n| 3 | 0 | d3 | 0 | 0 |\n\n\
+             The tool origin is $o_3^0 = [-c_1s_2d_3 + s_1d_2,\\; -s_1s_2d_3 {middle} c_1d_2,\\; d_1 + c_2d_3]^T$.\n"
+        )
+    };
+    is(&text("-"), None, &[("o_3^0", RIGHT)]);
+    is(&text("+"), None, &[("o_3^0", WRONG)]);
+    let found = read(&text("-"), None);
+    assert_eq!(found.claims[0].entries.len(), 3, "{:?}", found.claims);
+}
