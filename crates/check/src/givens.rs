@@ -57,6 +57,15 @@ pub(super) fn unused(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
     idle.map(|a| Unjudged { span: a.span.clone(), why: why(a) }).collect()
 }
 
+/// The numbers that were taken for those of a pose to be reached, where no words say so and no joints follow for it.
+pub(super) fn assumed(walked: &Walked) -> Vec<Unjudged> {
+    let is_answered = |span: &std::ops::Range<usize>| {
+        walked.answered.iter().any(|a| !a.targets.is_empty() && a.span.start >= span.end)
+    };
+    let open = walked.assumed.iter().filter(|span| !is_answered(span));
+    open.map(|span| Unjudged { span: span.clone(), why: Skipped::Given }).collect()
+}
+
 fn given(walked: &Walked) -> impl Iterator<Item = &Answered> {
     walked.answered.iter().filter(|a| a.is_given && !a.values.is_empty())
 }

@@ -2,6 +2,7 @@
 
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, greek};
+use std::collections::BTreeSet;
 
 /// The axes of coordinates.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
@@ -66,6 +67,24 @@ pub(super) fn is_mentioned(text: &str, name: &str) -> bool {
             !ends && !word[..at].ends_with(char::is_alphabetic)
         })
     })
+}
+
+/// The words of a text that are a letter or two and a number, marks of subscripts left aside.
+pub(super) fn mentioned(text: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for word in text.split_whitespace() {
+        let plain = plain_name(word);
+        let chars: Vec<char> = plain.chars().collect();
+        for (i, pair) in chars.windows(2).enumerate() {
+            if pair[0].is_alphabetic() && pair[1].is_ascii_digit() {
+                let digits: String =
+                    chars[i + 1..].iter().take_while(|c| c.is_ascii_digit()).take(2).collect();
+                found.insert(format!("{}{digits}", pair[0]));
+                found.insert(format!("{}{}", pair[0], pair[1]));
+            }
+        }
+    }
+    found
 }
 
 /// A text with the commands of Greek letters as letters.

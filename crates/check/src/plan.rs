@@ -4,6 +4,7 @@ use super::CheckOptions;
 use super::changed::{self, with_lengths, with_names, with_tool, with_tool_at};
 use super::convention;
 use super::habits::Habits;
+use super::letters::mentioned;
 use super::lexis::set_in;
 use super::listing;
 use super::note::{Note, Noted, Notes, Unread, Unreadable};
@@ -22,7 +23,7 @@ use denavit::description::{
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{CodeBlock, Directive, Document, Format};
-use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -65,6 +66,8 @@ pub(super) struct Walked {
     pub answered: Vec<Answered>,
     /// The poses that are to be reached.
     pub goals: Vec<Goal>,
+    /// Numbers that were taken for those of such a pose though no words say so.
+    pub assumed: Vec<Range<usize>>,
     /// What the document tells not to judge.
     pub ignored: Vec<Range<usize>>,
     /// Names that the document gives matrices: the statement and the name as printed.
@@ -501,6 +504,7 @@ impl Plan {
             taken: walk.taken,
             answered: walk.answered,
             goals: walk.goals,
+            assumed: walk.assumed,
             ignored,
             named: walk.named,
             defined: walk.defined,
@@ -543,24 +547,6 @@ fn nothing(convention: Convention) -> Description {
         poses: vec![],
         gravity: None,
     }
-}
-
-/// The words of a text that are a letter or two and a number, marks of subscripts left aside.
-fn mentioned(text: &str) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    for word in text.split_whitespace() {
-        let plain = plain_name(word);
-        let chars: Vec<char> = plain.chars().collect();
-        for (i, pair) in chars.windows(2).enumerate() {
-            if pair[0].is_alphabetic() && pair[1].is_ascii_digit() {
-                let digits: String =
-                    chars[i + 1..].iter().take_while(|c| c.is_ascii_digit()).take(2).collect();
-                found.insert(format!("{}{digits}", pair[0]));
-                found.insert(format!("{}{}", pair[0], pair[1]));
-            }
-        }
-    }
-    found
 }
 
 /// The programs of a document, or the one that it is.

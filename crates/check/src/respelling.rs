@@ -16,7 +16,8 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 13] = [
+    let of_prose: [fn(&str) -> Option<String>; 14] = [
+        without_quotes,
         without_speakers,
         small_functions,
         without_asides,
@@ -45,6 +46,29 @@ fn lines_with_equations(text: &str) -> impl Iterator<Item = (usize, &str)> {
     const LONGEST: usize = 2_000;
     let lines = super::lines::lines(text).map(|line| (line.start, text.get(line).unwrap_or_default()));
     lines.filter(|(_, source)| source.len() <= LONGEST && source.contains('='))
+}
+
+/// A text without the `>` before lines that are quoted, two in a row at least; nothing for other texts.
+fn without_quotes(text: &str) -> Option<String> {
+    let lines: Vec<Range<usize>> = super::lines::lines(text).collect();
+    let marks = |line: &Range<usize>| -> usize {
+        let source = text.get(line.clone()).unwrap_or_default();
+        let rest = source.trim_start_matches(['>', ' ']);
+        let length = source.len() - rest.len();
+        if source.trim_start().starts_with('>') { length } else { 0 }
+    };
+    let all: Vec<usize> = lines.iter().map(marks).collect();
+    let is_quoted = |k: usize| {
+        let is_beside = |k: Option<usize>| k.and_then(|k| all.get(k)).is_some_and(|m| *m > 0);
+        all[k] > 0 && (is_beside(k.checked_sub(1)) || is_beside(Some(k + 1)))
+    };
+    let mut bytes = text.as_bytes().to_vec();
+    let mut is_any = false;
+    for (k, line) in lines.iter().enumerate().filter(|(k, _)| is_quoted(*k)) {
+        bytes[line.start..line.start + all[k]].fill(b' ');
+        is_any = true;
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
 /// A text without the times and names before what people say in a chat, `[12.05., 21:20] Kofi: x2 = …`, if three lines have them;

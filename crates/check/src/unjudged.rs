@@ -75,9 +75,18 @@ pub(super) fn listed(
                 is_drawing = !shown.contains("\\end{tikzpicture}");
                 continue;
             }
-            if looks_like_formula(shown) && !touches(&read, &line) && !touches(&covered, &line) {
-                found.push(Unjudged { span: trimmed(text, line), why: Skipped::AmongWords });
+            if !looks_like_formula(shown) {
+                continue;
             }
+            if !touches(&read, &line) && !touches(&covered, &line) {
+                found.push(Unjudged { span: trimmed(text, line), why: Skipped::AmongWords });
+                continue;
+            }
+            // Beside what is read.
+            let is_said = |span: &Range<usize>| touches(&read, span) || touches(&covered, span);
+            let beside = left_over(text, &line, &|name| is_given(walked, name));
+            let open = beside.into_iter().filter(|span| !is_said(span));
+            found.extend(open.map(|span| Unjudged { span, why: Skipped::AmongWords }));
         }
     }
     found.sort_by_key(|u| (u.span.start, u.span.end));
@@ -309,7 +318,7 @@ fn mentions_in(source: &str, name: &str) -> bool {
 fn looks_like_formula(line: &str) -> bool {
     let shown = line.trim();
     let foreign = shown.len() > LONGEST
-        || shown.starts_with(['|', '<', '%', '#', '>'])
+        || shown.starts_with(['|', '<', '%', '#'])
         || shown.starts_with("\\usepackage")
         || shown.starts_with("\\newcommand")
         || shown.starts_with("\\includegraphics")
@@ -325,6 +334,38 @@ fn looks_like_formula(line: &str) -> bool {
     let left = sides.next().unwrap_or_default();
     let is_rule = shown.chars().all(|c| matches!(c, '=' | '-' | '+' | '|' | ' '));
     !is_rule && is_side(left) && sides.any(is_side) && !plain_name(shown).is_empty()
+}
+
+/// True for a joint, a length or a rate, whose number is given.
+fn is_given(walked: &Walked, name: &str) -> bool {
+    let known = walked.names.iter().filter_map(|names| names.lookup(name));
+    known.into_iter().any(|e| e.as_symbol().is_some())
+}
+
+/// What looks like `name = formula` in a line of words, each up to the comma or the end of the line behind it; numbers that are given
+/// are none.
+fn left_over(text: &str, line: &Range<usize>, is_given: &dyn Fn(&str) -> bool) -> Vec<Range<usize>> {
+    let shown = text.get(line.clone()).unwrap_or_default();
+    let mut found = vec![];
+    for (at, _) in shown.match_indices('=') {
+        let (before, behind) = (&shown[..at], &shown[at + 1..]);
+        if before.ends_with(['<', '>', '!', ':', '=', '&']) || behind.starts_with(['=', '>', '&']) {
+            continue;
+        }
+        let bare = before.trim_end_matches([' ', '`', '$', '*']);
+        let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '\\' | '{' | '}' | '\'' | '^');
+        let name = &bare[bare.trim_end_matches(is_part).len()..];
+        let first = behind.trim_start_matches([' ', '`', '$', '*', '-', '−', '+', '±']).chars().next();
+        let is_number = first.is_some_and(|c| c.is_ascii_digit());
+        let is_value = first.is_some_and(|c| c.is_alphanumeric() || matches!(c, '(' | '[' | '\\' | '√'));
+        if !name.contains(char::is_alphabetic) || !is_value || is_number && is_given(name) {
+            continue;
+        }
+        let end = behind.find([',', ';']).unwrap_or(behind.len());
+        let start = line.start + bare.len() - name.len();
+        found.push(start..line.start + at + 1 + behind[..end].trim_end().len());
+    }
+    found
 }
 
 fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {

@@ -5,10 +5,12 @@
 //! them, and become statements of the document: helpers are judged where they are used, `for sign in (1, -1)` is ±, and
 //! an entry of an argument, `T[0, 3]`, is the entry of the pose.
 
+mod computed;
 mod spelling;
 
 use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
+pub(super) use computed::computed;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
 use spelling::{branches, defines, is_factor_of_root, renamed, roots, spelled, squeezed};
@@ -207,54 +209,6 @@ pub(super) fn inverse(
     }
     statements.sort_by_key(|s| s.span.start);
     Some(Scripts { text: respelled?, programs: kept?, statements, posed, lost: unread })
-}
-
-/// Lines of programs that compute something from the arguments of a function, or from joints: each with its name.
-pub(super) fn computed(
-    text: &str,
-    programs: &[(Range<usize>, Dialect)],
-    is_joint: &dyn Fn(&str) -> bool,
-) -> Vec<(Range<usize>, String)> {
-    let mut found = vec![];
-    for (span, language) in programs {
-        for region in regions(text, span, *language) {
-            let mut moving: BTreeSet<String> =
-                region.parameters.iter().filter(|p| !p.is_empty()).cloned().collect();
-            for line in &region.lines {
-                for (name, formula) in &line.parts {
-                    let source = text.get(formula.clone()).unwrap_or_default();
-                    let uses = |w: &str| moving.contains(w) || is_joint(w);
-                    let is_told = crate::programs::words(source).any(uses);
-                    // `*t = 0`: an output that does not move.
-                    let is_output = text[..line.span.start].ends_with('*');
-                    if !is_told && !is_output {
-                        moving.remove(name);
-                        continue;
-                    }
-                    moving.insert(name.clone());
-                    if is_output || computes(source) && !is_abbreviation(name, source) {
-                        found.push((line.span.start..formula.end, name.clone()));
-                    }
-                }
-            }
-        }
-    }
-    found
-}
-
-/// True for `c12 = cos(q1 + q2)`.
-fn is_abbreviation(name: &str, source: &str) -> bool {
-    let plain = source.trim_start();
-    let bare = MODULES.iter().find_map(|m| plain.strip_prefix(m)).unwrap_or(plain);
-    name.to_lowercase().starts_with(['c', 's']) && (bare.starts_with("cos") || bare.starts_with("sin"))
-}
-
-/// True for a formula that is more than a name, a number or the call of a function.
-fn computes(source: &str) -> bool {
-    let plain = source.trim();
-    let has_operator = plain.trim_start_matches(['-', '+']).contains(['+', '-', '*', '/']);
-    let is_text = plain.contains(['"', '\'', '{']);
-    (has_operator || ["sin(", "cos(", "tan(", "sqrt("].iter().any(|f| plain.contains(f))) && !is_text
 }
 
 impl Scripts {

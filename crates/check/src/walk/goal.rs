@@ -395,6 +395,20 @@ impl Walk<'_> {
         }
     }
 
+    /// True for what a pose is to be, or a condition. Numbers of a pose that no words give are kept: something should rest on them.
+    pub(super) fn is_taken_as_goal(&mut self, statement: &Statement, read: &[Scalar]) -> bool {
+        let aims = self.aims(statement, read);
+        if !aims && self.is_condition(statement, read) {
+            return true;
+        }
+        let is_goal = aims || self.is_goal(statement, read);
+        let is_number = matches!(read, [_, Scalar::Formula(_, s)] if s.value().symbols().is_empty());
+        if is_goal && is_number && !self.tells_goal(statement) {
+            self.assumed.push(statement.span.clone());
+        }
+        is_goal
+    }
+
     /// Keeps coordinates in numbers that are to be reached, `(x, y, z) = (0.2, 0.45, 0.3)` behind `target`.
     pub(super) fn aims_at_components(&mut self, statement: &Statement) -> bool {
         let [left, right] = &statement.sides[..] else { return false };

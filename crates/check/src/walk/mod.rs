@@ -176,6 +176,8 @@ pub(super) struct Walk<'a> {
     /// The pose that is to be reached, as far as the text has given it in numbers, and where it did last.
     goal: Vec<Target>,
     goal_at: usize,
+    /// Numbers that were taken for those of such a pose though no words say so.
+    pub assumed: Vec<Range<usize>>,
     /// The poses that were to be reached so far, each as it stood behind a statement.
     pub goals: Vec<Goal>,
     /// What is read is about inverse kinematics.
@@ -261,6 +263,7 @@ impl<'a> Walk<'a> {
             sought: BTreeMap::new(),
             goal: vec![],
             goal_at: 0,
+            assumed: vec![],
             goals: vec![],
             in_inverse: false,
             load: Some(vec![]),

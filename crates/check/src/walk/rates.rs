@@ -213,7 +213,9 @@ impl Walk<'_> {
             "given",
         ];
         let words = self.sentence_before(statement).to_lowercase();
-        RATES.iter().chain(&WANTED).any(|w| words.contains(w))
+        // `with 1 rad/s on the shoulder`: these are the rates.
+        let are_told = ["rad/s", "deg/s", "°/s"].iter().any(|u| words.contains(u));
+        RATES.iter().chain(WANTED.iter().filter(|_| !are_told)).any(|w| words.contains(w))
     }
 
     /// What stands before a statement in its sentence, or in the part of it behind a semicolon.

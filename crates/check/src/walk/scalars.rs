@@ -150,10 +150,7 @@ impl Walk<'_> {
             self.skipped.push((statement.span.clone(), Unreadable::NoConfiguration));
             return true;
         }
-        if self.aims(statement, &read)
-            || self.is_condition(statement, &read)
-            || self.is_goal(statement, &read)
-        {
+        if self.is_taken_as_goal(statement, &read) {
             self.taken.push(statement.span.clone());
             return true;
         }
