@@ -355,7 +355,7 @@ impl Walk<'_> {
                 continue;
             }
             for (c, cell) in row.iter().enumerate() {
-                let place = Some((r + 1, c + 1));
+                let place = Some(if turned.is_some() { (c + 1, r + 1) } else { (r + 1, c + 1) });
                 match cell {
                     Cell::LeftOut => {}
                     Cell::Broken(span, errors) => out.pieces.push(Piece::Unreadable {
