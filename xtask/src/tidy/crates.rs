@@ -38,7 +38,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, REPORT]),
-    ("crates/load", LOAD, &[SYMBOLIC, ROBOT]),
+    ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
     (

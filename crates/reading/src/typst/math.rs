@@ -152,7 +152,13 @@ impl<'a> Math<'a> {
         match c {
             '"' => {
                 let text = self.quoted();
-                if text.is_empty() { sign("") } else { atom(format!("\\text{{{text}}}")) }
+                // `""^0 T`
+                let is_bare = text.is_empty() && self.rest.starts_with(['^', '_']);
+                match text.is_empty() {
+                    _ if is_bare => atom("{}".into()),
+                    true => sign(""),
+                    false => atom(format!("\\text{{{text}}}")),
+                }
             }
             '(' | '[' | '{' => atom(self.group()),
             c if c.is_ascii_digit() => {
@@ -277,7 +283,7 @@ impl<'a> Math<'a> {
     }
 
     fn function(&mut self, name: &str) -> Piece {
-        let rows = self.arguments();
+        let (rows, named) = self.arguments();
         let first = || rows.iter().flatten().next().cloned().unwrap_or_default();
         let second = || rows.iter().flatten().nth(1).cloned().unwrap_or_default();
         let matrix = |name: &str, rows: &[Vec<String>]| {
@@ -295,6 +301,15 @@ impl<'a> Math<'a> {
             "abs" => format!("|{}|", first()),
             "norm" => format!("\\|{}\\|", first()),
             "lr" => first(),
+            "attach" => {
+                let index = |places: [&str; 2], mark: char| {
+                    let found = named.iter().find(|n| places.contains(&n.0.as_str()));
+                    found.map(|n| format!("{mark}{{{}}}", bare(&n.1))).unwrap_or_default()
+                };
+                let left = index(["tl", "tl"], '^') + &index(["bl", "bl"], '_');
+                let left = if left.is_empty() { left } else { format!("{{}}{left}") };
+                format!("{left}{}{}{}", first(), index(["tr", "t"], '^'), index(["br", "b"], '_'))
+            }
             "op" => format!("\\operatorname{{{}}}", first().replace("\\text{", "").replace('}', "")),
             _ if LOOKS.contains(&name) => match first().strip_prefix("\\text{") {
                 Some(word) => format!("\\mathit{{{word}"),
@@ -309,20 +324,26 @@ impl<'a> Math<'a> {
         Piece { text, is_atom: true }
     }
 
-    /// The arguments row by row; those with names are left away.
-    fn arguments(&mut self) -> Vec<Vec<String>> {
+    /// The arguments row by row, and those with names.
+    fn arguments(&mut self) -> (Vec<Vec<String>>, Vec<(String, String)>) {
         self.next();
-        let mut rows = vec![vec![]];
+        let (mut rows, mut named) = (vec![vec![]], vec![]);
         if self.depth >= DEEPEST {
             self.rest = "";
-            return rows;
+            return (rows, named);
         }
         self.depth += 1;
         loop {
             let word = self.rest.trim_start();
             let is_part = |c: char| c.is_alphanumeric() || c == '-';
             let name = word.find(|c| !is_part(c)).unwrap_or(word.len());
-            let is_named = name > 1 && word[name..].starts_with(':') && !word[name..].starts_with(":=");
+            let behind = word[name..].strip_prefix(':').filter(|rest| name > 0 && !rest.starts_with('='));
+            if let Some(rest) = behind {
+                let name = word[..name].to_string();
+                self.rest = rest;
+                named.push((name, self.row(&[',', ';']).trim().to_string()));
+            }
+            let is_named = behind.is_some();
             let argument = self.row(&[',', ';']);
             let argument = argument.trim();
             if let Some(row) = rows.last_mut().filter(|_| !is_named && !argument.is_empty()) {
@@ -336,7 +357,7 @@ impl<'a> Math<'a> {
         }
         self.depth -= 1;
         rows.retain(|row| !row.is_empty());
-        rows
+        (rows, named)
     }
 }
 
@@ -345,7 +366,8 @@ fn is_name(name: &str) -> bool {
 }
 
 fn is_function(name: &str) -> bool {
-    const OTHERS: [&str; 10] = ["sqrt", "root", "frac", "mat", "vec", "cases", "abs", "norm", "lr", "op"];
+    const OTHERS: [&str; 11] =
+        ["sqrt", "root", "frac", "mat", "vec", "cases", "abs", "norm", "lr", "op", "attach"];
     OTHERS.contains(&name) || LOOKS.contains(&name) || ACCENTS.iter().any(|a| a.0 == name)
 }
 

@@ -64,6 +64,8 @@ fn formulas_are_those_of_latex() {
         ("90 degree", "90 ^{\\circ}"),
         ("x >= y'", "x \\geq  y'"),
         ("vec(x, y)", "\\begin{bmatrix}x \\\\ y\\end{bmatrix}"),
+        ("attach(T, tl: 0, br: 2) = A_1", "{}^{0}T_{2} = A_{1}"),
+        ("\"\"^0 T_6", "{}^{0} T_{6}"),
         ("L1 + a", "L_{1} + a"),
     ] {
         assert_eq!(markdown(&format!("${typst}$")), format!("${latex}$"), "{typst}");
