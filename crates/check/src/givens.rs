@@ -58,12 +58,22 @@ pub(super) fn unused(text: &str, plan: &Plan, walked: &Walked, claims: &[Claim])
 }
 
 /// The numbers that were taken for those of a pose to be reached, where no words say so and no joints follow for it.
-pub(super) fn assumed(walked: &Walked) -> Vec<Unjudged> {
+pub(super) fn assumed(text: &str, walked: &Walked) -> Vec<Unjudged> {
     let is_answered = |span: &std::ops::Range<usize>| {
         walked.answered.iter().any(|a| !a.targets.is_empty() && a.span.start >= span.end)
     };
-    let open = walked.assumed.iter().filter(|span| !is_answered(span));
+    let open = walked.assumed.iter().filter(|span| !is_answered(span) && !is_case(text, span));
     open.map(|span| Unjudged { span: span.clone(), why: Skipped::Given }).collect()
+}
+
+/// True for what vanishes in a case that the words behind a colon are about: `p_x = 0 and p_y = 0: the joint is free`.
+fn is_case(text: &str, span: &std::ops::Range<usize>) -> bool {
+    let is_zero =
+        || text.get(span.clone()).and_then(|s| s.rsplit_once('=')).is_some_and(|(_, v)| v.trim() == "0");
+    let behind = text.get(span.end..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+    let sentence = behind.split(". ").next().unwrap_or_default();
+    let told = sentence.split_once(':').map(|(_, words)| words.trim_start());
+    is_zero() && told.is_some_and(|words| words.starts_with(char::is_alphabetic))
 }
 
 fn given(walked: &Walked) -> impl Iterator<Item = &Answered> {

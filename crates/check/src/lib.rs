@@ -232,7 +232,7 @@ pub fn check(
     unjudged.extend(unjudged::passed_over(computed, &claims, &unjudged));
     unjudged.extend(of_dynamics);
     unjudged.extend(givens::unused(text, &plan, &walked, &claims));
-    unjudged.extend(givens::assumed(&walked));
+    unjudged.extend(givens::assumed(text, &walked));
     unjudged.sort_by_key(|u| (u.span.start, u.span.end));
     unjudged.dedup_by(|a, b| a.span == b.span);
     let claims = apart::split(text, claims, &mut causes);
