@@ -73,9 +73,11 @@ fn crates(folder: &Path) -> Result<()> {
     if !changed.status.success() || !changed.stdout.is_empty() {
         bail!("the working tree has changes: {}", String::from_utf8_lossy(&changed.stdout));
     }
+    // Cargo takes crates of this version that it has unpacked or built before for those that are packed now.
+    let built = of_this_commit(&target().join("packaged"))?;
     let mut package = cargo();
     // The page is no file of the repository.
-    package.args(["package", "--locked", "--allow-dirty"]);
+    package.args(["package", "--locked", "--allow-dirty", "--target-dir"]).arg(&built);
     let all = published(&metadata);
     for p in &all {
         package.args(["-p", text(p, "name")]);
@@ -88,9 +90,19 @@ fn crates(folder: &Path) -> Result<()> {
     packaged?;
     for p in &all {
         let name = format!("{}-{}.crate", text(p, "name"), text(p, "version"));
-        put(&target().join("package").join(&name), &folder.join("crates").join(&name), CRATE)?;
+        put(&built.join("package").join(&name), &folder.join("crates").join(&name), CRATE)?;
     }
     Ok(())
+}
+
+/// A folder inside of another for what is made of this commit; those of others are removed.
+fn of_this_commit(folder: &Path) -> Result<PathBuf> {
+    let head = command("git").args(["rev-parse", "HEAD"]).output().context("git")?;
+    let own = folder.join(String::from_utf8_lossy(&head.stdout).trim());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten().filter(|e| e.path() != own) {
+        fs::remove_dir_all(entry.path())?;
+    }
+    Ok(own)
 }
 
 /// What the program, its page and the wheel are made of, as CycloneDX 1.5: on whatever system, without what only tests use.
