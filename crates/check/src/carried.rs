@@ -12,7 +12,7 @@ use super::plan::{Plan, Walked};
 use super::programs::Followed;
 use super::subject::Subject;
 use super::tables::{Judged, Standing as TableStanding};
-use super::walk::{Assertion, Piece};
+use super::walk::{Assertion, Piece, Spoken};
 use denavit_reading::document::Document;
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::plain_name;
@@ -157,6 +157,43 @@ pub(super) fn in_programs(text: &str, walked: &Walked, claims: &mut [Claim]) {
             if let Finding::Wrong(wrong) = &entry.finding {
                 entry.finding = Finding::Carried { by, correct: wrong.correct.clone() };
             }
+        }
+    }
+}
+
+/// The angle of a sine and a cosine that have formulas of their own before, `θ3 = atan2(s3, c3)`: it is proved with them, and carried
+/// where one of them is wrong.
+pub(super) fn by_sines(walked: &Walked, claims: &mut [Claim]) {
+    for k in 0..claims.len().min(walked.assertions.len()) {
+        let assertion = &walked.assertions[k];
+        let Some(Spoken::Joint { of, branches, .. }) = &assertion.spoken else { continue };
+        let (sine, cosine) = of.sin_cos();
+        if branches[..] != [sine.atan2(cosine)] || claims[k].standing() != Standing::Undecided {
+            continue;
+        }
+        let told = |e: Expr| {
+            let before = walked.assertions[..claims.len().min(walked.assertions.len())].iter().enumerate();
+            let is_it = |(_, a): &(usize, &Assertion)| {
+                a.subject == assertion.subject
+                    && a.span.end <= assertion.span.start
+                    && a.reference.as_ref().is_some_and(|r| r.1.value() == e)
+            };
+            before.filter(is_it).last().map(|(j, _)| j)
+        };
+        let (Some(a), Some(b)) = (told(sine), told(cosine)) else { continue };
+        let wrong = |j: &usize| matches!(claims[*j].standing(), Standing::Wrong | Standing::Carried);
+        let by = [a, b].into_iter().find(wrong);
+        let both = [a, b].map(|j| &claims[j]);
+        let identities = both.iter().flat_map(|c| &c.entries).flat_map(|e| e.identities.clone()).collect();
+        let is_right = both.iter().all(|c| c.standing() == Standing::Equal);
+        let Some(entry) = claims[k].entries.first_mut() else { continue };
+        match by {
+            Some(by) => entry.finding = Finding::Carried { by, correct: vec![] },
+            None if is_right => {
+                entry.finding = Finding::Equal { unless_zero: vec![] };
+                entry.identities = identities;
+            }
+            None => {}
         }
     }
 }

@@ -206,6 +206,7 @@ pub fn check(
     carried::in_programs(text, &walked, &mut claims);
     carried::as_computed(&walked, &mut claims);
     carried::by_name(text, &mut claims);
+    carried::by_sines(&walked, &mut claims);
     blamed::helpers(text, format, &plan, options, &walked, &mut claims);
     let judged = tables::judge(text, &plan.subjects[0], &plan.own_tables);
     for (k, table) in judged.into_iter().enumerate() {

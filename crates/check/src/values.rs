@@ -52,8 +52,7 @@ pub(super) fn judge(text: &str, plan: &Plan, walked: &Walked) -> (Vec<(usize, Cl
         let angles: Vec<_> = of.iter().filter(|s| matches!(s.2, Spoken::Angle { .. })).copied().collect();
         if !joints.is_empty() {
             let trial = Trial::new(subject, &Places(columns));
-            let all = &walked.assertions;
-            let judge = Judge { text, subject, names: walked.inverse_names_of(number), habits, trial, all };
+            let judge = Judge { text, subject, names: walked.inverse_names_of(number), habits, trial };
             judge.joints(&joints, &mut claims, &mut notes);
         }
         claims.extend(orientations(&angles, habits, walked.inverse_names_of(number)));
@@ -68,8 +67,6 @@ struct Judge<'a> {
     subject: &'a Subject,
     names: &'a Rc<Vocabulary>,
     habits: &'a Habits,
-    /// All that the document says.
-    all: &'a [Assertion],
 }
 
 type Statement<'a> = (usize, &'a Assertion, &'a Spoken);
@@ -138,18 +135,9 @@ impl Judge<'_> {
             // A formula of what itself depends on the joint, as of a point of the arm: that it gives the joint's own value proves
             // nothing, that it gives another one does.
             if judgement.verdict == Verdict::Undecided(Undecided::Circular) {
-                finding = match self.is_by_its_sines(own, values, assertion) {
-                    true => Finding::Equal { unless_zero: vec![] },
-                    false => self.never_own(own, values, sides).unwrap_or(finding),
-                };
+                finding = self.never_own(own, values, sides).unwrap_or(finding);
             }
-            let identities = match finding {
-                // By the sine's and the cosine's own formulas.
-                Finding::Equal { .. } if judgement.verdict != Verdict::Right => {
-                    vec![[values.branches[0][0], own]]
-                }
-                _ => judgement.identities.clone(),
-            };
+            let identities = judgement.identities.clone();
             if let (Standing::Wrong, [(span, syntax)]) = (finding.standing(), &sides[..])
                 && let Finding::Wrong(wrong) = &mut finding
                 && let Some(slip) = self.slip(&mut inverse, own, span, syntax, &taken)
@@ -172,14 +160,6 @@ impl Judge<'_> {
         {
             notes.push((span, composed));
         }
-    }
-
-    /// True for the angle of a sine and a cosine that have formulas of their own before: these are what is judged.
-    fn is_by_its_sines(&self, of: Expr, values: &Values, at: &Assertion) -> bool {
-        let (sine, cosine) = of.sin_cos();
-        let before = || self.all.iter().filter(|a| a.subject == at.subject && a.span.end <= at.span.start);
-        let is_told = |e: Expr| before().any(|a| a.reference.as_ref().is_some_and(|r| r.1.value() == e));
-        values.branches == [[sine.atan2(cosine)]] && is_told(sine) && is_told(cosine)
     }
 
     /// A formula that gives another value than the joint's own wherever it gives one, and one change from which it gives that.

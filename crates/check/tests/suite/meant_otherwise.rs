@@ -1,5 +1,6 @@
 //! Words before a formula that give its letters another meaning than the usual one.
 
+use denavit::catalogue;
 use denavit_check::{CheckOptions, Checked, Condition, Finding, Standing, check};
 use denavit_reading::document::Format;
 
@@ -119,4 +120,45 @@ fn an_equation_between_coordinates_of_an_own_point() {
     let right = "a_1 s_1 + \\frac{a_2}{2} s_{12}";
     assert_eq!(standings(&text(right, square), name), [Standing::Equal]);
     assert_ne!(standings(&text("a_1 s_1 - \\frac{a_2}{2} s_{12}", square), name), [Standing::Wrong]);
+}
+
+/// The angle of a sine and a cosine is what these are: proved with them, carried where one of them is wrong.
+#[test]
+fn an_angle_of_its_sine_and_cosine_rests_on_them() {
+    let d = catalogue::robot("ur5").expect("in the catalogue");
+    let standings = |cosine: &str| {
+        let text = format!(
+            "$$\nX = C_1 (p_x - d_6 a_x) + S_1 (p_y - d_6 a_y) - d_5 S_{{234}}\n$$\n\n\
+             $$\nZ = p_z - d_6 a_z - d_1 + d_5 C_{{234}}\n$$\n\n$$\nC_3 = {cosine}\n$$\n\n\
+             $$\nS_3 = \\kappa_3 \\sqrt{{1 - C_3^2}}\n$$\n\nwith $\\kappa_3 = \\pm 1$,\n\n\
+             $$\nq_3 = \\operatorname{{atan2}}(S_3, C_3)\n$$\n"
+        );
+        let checked = check(&text, Format::Markdown, Some(&d), &CheckOptions::default()).expect("it is read");
+        let of = |name: &str| {
+            let claim = checked.claims.iter().find(|c| c.name == name);
+            claim.map(|c| (c.standing(), c.is_proved()))
+        };
+        [of("C_3"), of("q_3")]
+    };
+    let right = standings("\\frac{X^2 + Z^2 - a_2^2 - a_3^2}{2 a_2 a_3}");
+    assert_eq!(right, [Some((Standing::Equal, true)); 2]);
+    let wrong = standings("\\frac{X^2 + Z^2 + a_2^2 - a_3^2}{2 a_2 a_3}");
+    assert_eq!(wrong, [Some((Standing::Wrong, false)), Some((Standing::Carried, false))]);
+}
+
+/// Two values of which one is right at every pose are proved; one value twice is half of them.
+#[test]
+fn both_directions_of_an_arctangent_are_proved() {
+    let d = catalogue::robot("staubli-rx90").expect("in the catalogue");
+    let proved = |other: &str| {
+        let text = format!(
+            "$\\theta_1 = \\operatorname{{atan2}}(p_y, p_x)$ or $\\theta_1 = \\operatorname{{atan2}}({other})$\n"
+        );
+        let checked = check(&text, Format::Markdown, Some(&d), &CheckOptions::default()).expect("it is read");
+        assert_eq!(checked.claims.len(), 2, "{other}");
+        checked.claims.iter().filter(|c| c.is_proved()).count()
+    };
+    assert_eq!(proved("-p_y, -p_x"), 2);
+    assert_eq!(proved("2 p_y, 2 p_x"), 0);
+    assert_eq!(proved("-p_y, p_x"), 0);
 }

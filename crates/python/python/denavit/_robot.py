@@ -207,7 +207,7 @@ class Robot(Numbers, Derivations, Motions):
         >>> Robot("ur5").converted("craig").convention
         'craig'
         """
-        return Robot._of(_warned(self._core.converted(convention)))
+        return Robot._of(_warned(self._core.converted(convention), known=len(self._core.findings)))
 
     @property
     def name(self) -> str:
@@ -302,9 +302,9 @@ class Robot(Numbers, Derivations, Motions):
         return (_unpickled, (self.toml,))
 
 
-def _warned(core: Core) -> Core:
-    """The same, its warnings raised where the package was called."""
-    found = [finding for finding in findings_of(core.findings) if finding.severity == "warning"]
+def _warned(core: Core, known: int = 0) -> Core:
+    """The same, its warnings but those that are known raised where the package was called."""
+    found = [finding for finding in findings_of(core.findings)[known:] if finding.severity == "warning"]
     if found:
         import sys
         import warnings

@@ -1,5 +1,7 @@
 //! Formulas of Typst as formulas of LaTeX.
 
+use super::taken;
+
 /// Names that LaTeX calls otherwise.
 const NAMES: [(&str, &str); 34] = [
     ("plus.minus", "\\pm"),
@@ -98,19 +100,19 @@ impl<'a> Math<'a> {
     }
 
     fn next(&mut self) -> Option<char> {
-        let c = self.peek()?;
-        self.rest = &self.rest[c.len_utf8()..];
-        Some(c)
+        taken(&mut self.rest)
     }
 
     /// What stands before one of the marks, a bracket that nothing opened, or the end.
     fn row(&mut self, stops: &[char]) -> String {
         let mut pieces: Vec<Piece> = vec![];
+        let mut bars = 0;
         while let Some(c) = self.peek() {
             if stops.contains(&c) || matches!(c, ')' | ']' | '}') {
                 break;
             }
-            if c == '/' {
+            if c == '/' && bars < DEEPEST {
+                bars += 1;
                 self.next();
                 while pieces.last().is_some_and(|p| p.text.trim().is_empty()) {
                     pieces.pop();
@@ -146,6 +148,8 @@ impl<'a> Math<'a> {
     }
 
     fn part(&mut self) -> Piece {
+        // Names of code are names here.
+        self.rest = self.rest.trim_start_matches('#');
         let Some(c) = self.peek() else { return Piece { text: String::new(), is_atom: false } };
         let atom = |text: String| Piece { text, is_atom: true };
         let sign = |text: &str| Piece { text: text.into(), is_atom: false };
@@ -169,10 +173,6 @@ impl<'a> Math<'a> {
                 atom(digits.into())
             }
             c if c.is_alphabetic() => self.named(),
-            '#' => {
-                self.next();
-                self.part()
-            }
             '\\' => {
                 self.next();
                 match self.peek() {

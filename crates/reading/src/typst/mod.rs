@@ -37,6 +37,13 @@ pub fn markdown(text: &str) -> String {
     reader.out
 }
 
+/// The first letter of what is left of a text, and is left no longer.
+fn taken(rest: &mut &str) -> Option<char> {
+    let c = rest.chars().next()?;
+    *rest = &rest[c.len_utf8()..];
+    Some(c)
+}
+
 struct Reader<'a> {
     rest: &'a str,
     out: String,
@@ -47,6 +54,8 @@ struct Reader<'a> {
 
 /// Brackets in brackets that are followed.
 const DEEPEST: usize = 100;
+/// So many letters of arguments are looked through for those with names.
+const FIRST: usize = 1000;
 
 impl Reader<'_> {
     fn peek(&self) -> Option<char> {
@@ -54,9 +63,7 @@ impl Reader<'_> {
     }
 
     fn next(&mut self) -> Option<char> {
-        let c = self.peek()?;
-        self.rest = &self.rest[c.len_utf8()..];
-        Some(c)
+        taken(&mut self.rest)
     }
 
     fn skip(&mut self, what: &str) -> bool {
@@ -78,6 +85,34 @@ impl Reader<'_> {
         }
     }
 
+    /// True at the beginning of a line.
+    fn begins(&self) -> bool {
+        self.out.trim_end_matches([' ', '\t']).chars().next_back().is_none_or(|c| c == '\n')
+    }
+
+    /// The arguments of a function, its brackets included, as far as they are looked through.
+    fn own_arguments(&self) -> &str {
+        let (mut depth, mut is_text) = (0_i32, false);
+        if !self.rest.starts_with('(') {
+            return "";
+        }
+        let mut end = 0;
+        for c in self.rest.chars().take(FIRST) {
+            end += c.len_utf8();
+            match c {
+                '"' => is_text = !is_text,
+                _ if is_text => {}
+                '(' | '[' | '{' => depth += 1,
+                ')' | ']' | '}' => depth -= 1,
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        &self.rest[..end]
+    }
+
     /// A comment; true if there is one.
     fn comment(&mut self) -> bool {
         if self.rest.starts_with("//") && !self.out.ends_with(':') {
@@ -95,7 +130,6 @@ impl Reader<'_> {
         self.depth += 1;
         let mut open = 0;
         while let Some(c) = self.peek() {
-            let begins = self.out.rsplit('\n').next().is_none_or(|line| line.trim().is_empty());
             if self.comment() {
                 continue;
             }
@@ -103,7 +137,7 @@ impl Reader<'_> {
                 ']' if open == 0 => break,
                 '[' => open += 1,
                 ']' => open -= 1,
-                '=' if begins => {
+                '=' if self.begins() => {
                     let level = self.rest.len() - self.rest.trim_start_matches('=').len();
                     if self.rest[level..].starts_with(' ') {
                         self.out.extend(std::iter::repeat_n('#', level.min(6)));
@@ -261,13 +295,13 @@ impl Reader<'_> {
             return;
         }
         if name == "heading" {
-            let level = self.rest.split_once("level:").map_or(1, |(_, rest)| {
+            let level = self.own_arguments().split_once("level:").map_or(1, |(_, rest)| {
                 rest.trim_start().chars().next().and_then(|c| c.to_digit(10)).unwrap_or(1) as usize
             });
             self.out.extend(std::iter::repeat_n('#', level.clamp(1, 6)));
             self.out.push(' ');
         }
-        if name == "table" && self.peek() == Some('(') {
+        if name == "table" && self.peek() == Some('(') && self.depth <= DEEPEST {
             self.table();
             return;
         }
@@ -344,10 +378,10 @@ impl Reader<'_> {
 
     /// A table with its cells row by row. Its rule stands where its heading does, and that a line above.
     fn table(&mut self) {
-        let columns = columns(self.rest);
+        let columns = columns(self.own_arguments());
         let mut cells: Vec<String> = vec![];
         let out = std::mem::take(&mut self.out);
-        let start = self.rest.len();
+        self.depth += 1;
         self.next();
         let (mut is_named, mut breaks) = (false, vec![]);
         let mut open = 1;
@@ -388,7 +422,7 @@ impl Reader<'_> {
             }
             self.out.clear();
         }
-        debug_assert!(self.rest.len() < start);
+        self.depth -= 1;
         self.out = out;
         self.rows(&cells, columns, &breaks);
     }

@@ -8,6 +8,7 @@ fn words_and_formulas() {
         ("= The arm\n\nAt $q_1 = 0$.", "# The arm\n\nAt $q_{1} = 0$."),
         ("#heading(level: 2)[#\"Step \";$q_1$]", "## Step $q_{1}$"),
         ("#heading(level: 1, \"The arm\")", "# The arm"),
+        ("#heading[One] a\n#heading(level: 3)[Two]", "# One a\n### Two"),
         ("#set text(\n  size: 10pt,\n)\n$ x = 1 $", "\n\n\n$$ x = 1 $$"),
         ("#grid(columns: (1fr, auto), $ x = 1 $, [(2) #sym.checkmark])", " $$ x = 1 $$ (2) ✓"),
         ("a // b\nc /* d\n */ e", "a \nc \n e"),
@@ -44,7 +45,12 @@ fn nothing_is_without_an_end() {
     }
     let _ = markdown(&"#[".repeat(10_000));
     let _ = markdown(&format!("${}", "(".repeat(10_000)));
-    let _ = markdown(&"#f(".repeat(10_000));
+    for part in ["#f(", "#table(", "#heading(", "#table(columns: 2, [", "(#f[", "$a$ ", "x ", "= "] {
+        let _ = markdown(&part.repeat(50_000));
+    }
+    for part in ["#", "(", "a_", "a/", "sqrt(", "mat(", "\"", "\\"] {
+        let _ = markdown(&format!("${}", part.repeat(50_000)));
+    }
 }
 
 #[test]
