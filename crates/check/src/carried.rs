@@ -172,13 +172,14 @@ pub(super) fn by_sines(walked: &Walked, claims: &mut [Claim]) {
             continue;
         }
         let told = |e: Expr| {
-            let before = walked.assertions[..claims.len().min(walked.assertions.len())].iter().enumerate();
+            let mut before =
+                walked.assertions[..claims.len().min(walked.assertions.len())].iter().enumerate();
             let is_it = |(_, a): &(usize, &Assertion)| {
                 a.subject == assertion.subject
                     && a.span.end <= assertion.span.start
                     && a.reference.as_ref().is_some_and(|r| r.1.value() == e)
             };
-            before.filter(is_it).last().map(|(j, _)| j)
+            before.rfind(is_it).map(|(j, _)| j)
         };
         let (Some(a), Some(b)) = (told(sine), told(cosine)) else { continue };
         let wrong = |j: &usize| matches!(claims[*j].standing(), Standing::Wrong | Standing::Carried);
