@@ -5,7 +5,7 @@ use crate::scene::{Bodies, bodies};
 use crate::subject::Subject;
 use crate::words;
 use denavit::forward::Reference;
-use denavit::velocity::{Singularities, Viewpoint, geometric, singular_configuration};
+use denavit::velocity::{Singularities, Singularity, Viewpoint, geometric, singular_configuration};
 use denavit_report::document::Math;
 use denavit_report::words::Velocity as _;
 use denavit_symbolic::Expr;
@@ -27,6 +27,8 @@ pub struct Singular {
 #[derive(Serialize)]
 struct Place {
     factor: Formula,
+    /// Whether the tool's point alone gets stuck there: of an arm with at most three joints, where that is elsewhere.
+    of_point: bool,
     /// A configuration there, near to the one that the arm is drawn in.
     q: Option<Vec<f64>>,
     scene: Option<Bodies>,
@@ -59,17 +61,25 @@ pub fn singular(subject: &Subject) -> Result<Singular, Refusal> {
     let found = Singularities::derive(&subject.description, Reference::Tool)
         .map_err(|why| Refusal::new(why.to_string()))?;
     let names = subject.description.vocabulary();
-    let factors: Vec<Expr> = found.common.iter().map(|c| c.factor).collect();
     let near = denavit::velocity::regular_configuration(&subject.valued, subject.arm.pose().to_vec());
-    let all = found.common.iter().map(|one| {
-        let q = singular_configuration(&subject.valued, one.factor, &factors, &near);
-        Place {
-            factor: Formula::of(&Math::equation(one.factor, Expr::int(0)), &names),
-            scene: q.as_ref().map(|q| bodies(&subject.arm.at(q))),
-            q,
-            why: one.example.as_ref().map(|e| words().place(&e.place)),
-            zeros: one.zeros.iter().map(|z| Zeros::of(z, |e| print(e, &names, Style::Unicode))).collect(),
-        }
-    });
-    Ok(Singular { complete: found.is_complete, singularities: all.collect() })
+    let places = |found: &Singularities, of_point: bool| {
+        let factors: Vec<Expr> = found.common.iter().map(|c| c.factor).collect();
+        let of = |one: &Singularity| {
+            let q = singular_configuration(&subject.valued, one.factor, &factors, &near);
+            Place {
+                factor: Formula::of(&Math::equation(one.factor, Expr::int(0)), &names),
+                of_point,
+                scene: q.as_ref().map(|q| bodies(&subject.arm.at(q))),
+                q,
+                why: one.example.as_ref().map(|e| words().place(&e.place)),
+                zeros: one.zeros.iter().map(|z| Zeros::of(z, |e| print(e, &names, Style::Unicode))).collect(),
+            }
+        };
+        found.common.iter().map(of).collect::<Vec<_>>()
+    };
+    let point = found.of_its_point(&subject.description);
+    let mut singularities = places(&found, false);
+    singularities.extend(point.iter().flat_map(|p| places(p, true)));
+    let complete = found.is_complete && point.is_none_or(|p| p.is_complete);
+    Ok(Singular { complete, singularities })
 }

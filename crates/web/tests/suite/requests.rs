@@ -209,6 +209,18 @@ fn documents_code_and_pictures_are_made() {
 }
 
 #[test]
+fn where_the_position_alone_is_singular_is_told() {
+    taken("planar-2r");
+    let told = told("singular", json!({}));
+    let all = told["singularities"].as_array().expect("a list");
+    let of_point: Vec<&Value> = all.iter().filter(|one| one["of_point"] == true).collect();
+    assert_eq!(of_point.len(), 1, "{told}");
+    assert_eq!(of_point[0]["factor"]["text"], "S2 = 0");
+    let q = of_point[0]["q"].as_array().and_then(|q| q[1].as_f64()).expect("a configuration");
+    assert!(q.sin().abs() < 1e-9, "{q}");
+}
+
+#[test]
 fn a_printed_formula_is_judged() {
     taken("staubli-rx90");
     let check =

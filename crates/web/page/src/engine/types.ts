@@ -405,6 +405,8 @@ export interface Slip {
 export interface Singularity {
   why: string | null;
   factor: Formula;
+  /** Whether the tool's point alone gets stuck there. */
+  of_point: boolean;
   /** The factor solved for angles. */
   zeros: { angle: string; values: string[] }[];
   q: number[] | null;

@@ -1,6 +1,7 @@
 // What is said beside the picture: the row that is explained, what is being computed, and whether the arm is nearly singular.
 
 import { computed } from "@preact/signals";
+import type { Singularity } from "../engine/types.ts";
 import { look, move, robot, scene, selected, singular } from "../state.ts";
 import { isExact, nearness } from "./arm.ts";
 import { rowNow } from "./row.ts";
@@ -62,27 +63,31 @@ const isNear = computed(() => scene.value !== null && nearness(scene.value, robo
 function Singulars() {
   const list = singular.value;
   if (!look.value.singular || !list || list.length === 0 || selected.value !== null) return null;
+  const row = ({ factor, why, q }: Singularity, k: number) => (
+    <li key={k}>
+      <button
+        type="button"
+        disabled={!q}
+        title={why ?? undefined}
+        onClick={() => q && move(q)}
+        onPointerEnter={() => (singularAt.value = k)}
+        onPointerLeave={() => (singularAt.value = null)}
+        onFocus={() => (singularAt.value = k)}
+        onBlur={() => (singularAt.value = null)}
+      >
+        <b>{factor.text}</b> {why}
+      </button>
+    </li>
+  );
+  // The list numbers all of them, those of the point last.
+  const first = list.findIndex((one) => one.of_point);
+  const whole = first < 0 ? list.length : first;
   return (
     <div class="scene-row scene-singular">
-      <div class="scene-row-title">Singular</div>
-      <ol>
-        {list.map(({ factor, why, q }, k) => (
-          <li key={factor.text}>
-            <button
-              type="button"
-              disabled={!q}
-              title={why ?? undefined}
-              onClick={() => q && move(q)}
-              onPointerEnter={() => (singularAt.value = k)}
-              onPointerLeave={() => (singularAt.value = null)}
-              onFocus={() => (singularAt.value = k)}
-              onBlur={() => (singularAt.value = null)}
-            >
-              <b>{factor.text}</b> {why}
-            </button>
-          </li>
-        ))}
-      </ol>
+      {whole > 0 && <div class="scene-row-title">Singular</div>}
+      {whole > 0 && <ol>{list.slice(0, whole).map(row)}</ol>}
+      {first >= 0 && <div class="scene-row-title">The position alone</div>}
+      {first >= 0 && <ol>{list.slice(whole).map((one, k) => row(one, whole + k))}</ol>}
     </div>
   );
 }
