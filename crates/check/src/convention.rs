@@ -164,6 +164,7 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     // As many bytes as the text has, so that places agree.
     let lower = text.to_ascii_lowercase();
     let mut found: Vec<(Convention, Range<usize>)> = vec![];
+    let mut not_craig = None;
     let mut add = |convention: Convention, at: Range<usize>| {
         match found.iter_mut().find(|f| f.0 == convention) {
             Some(first) if first.1.start <= at.start => {}
@@ -173,14 +174,23 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     };
     for (word, convention) in OWN {
         for (at, _) in lower.match_indices(word).take(20) {
-            add(*convention, at..at + word.len());
+            match is_denied(&lower[..at]) {
+                false => add(*convention, at..at + word.len()),
+                true if *convention == Convention::Craig => not_craig = Some(at..at + word.len()),
+                true => {}
+            }
         }
     }
     for (word, convention) in BESIDE {
         for (at, _) in lower.match_indices(word).take(50) {
             let end = at + word.len();
-            if begins_word(&lower, at) && has_subject(&lower, at, end) {
-                add(*convention, at..end);
+            if !(begins_word(&lower, at) && has_subject(&lower, at, end)) {
+                continue;
+            }
+            match is_denied(&lower[..at]) {
+                false => add(*convention, at..end),
+                true if *convention == Convention::Craig => not_craig = Some(at..end),
+                true => {}
             }
         }
     }
@@ -192,6 +202,10 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     for (convention, at) in told_in_motions(&lower).into_iter().chain(as_a_product(&lower)) {
         add(convention, at);
     }
+    // A row begins with the joint or with the frame before.
+    if let (true, Some(at)) = (found.is_empty(), not_craig) {
+        found.push((Convention::Standard, at));
+    }
     // Craig's order with the letters of Khalil's table is Khalil's.
     let has = |c: Convention| found.iter().any(|f| f.0 == c);
     if has(Convention::Khalil) && !has(Convention::Standard) {
@@ -199,6 +213,85 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
     }
     found.sort_by_key(|f| f.1.start);
     found
+}
+
+/// Words that deny what stands behind them.
+const DENIALS: &[&str] = &[
+    "not",
+    "n't",
+    "than",
+    "instead",
+    "unlike",
+    "opposed",
+    "versus",
+    "vs",
+    "nicht",
+    "statt",
+    "anstatt",
+    "anders",
+    "pas",
+    "plut\u{f4}t",
+    "contrairement",
+    "niet",
+    "non",
+    "no",
+    "n\u{e3}o",
+    "invece",
+    "anzich\u{e9}",
+];
+
+/// Words that may stand between a denial and what it denies.
+const BETWEEN: &[&str] = &[
+    "the",
+    "a",
+    "to",
+    "of",
+    "in",
+    "that",
+    "der",
+    "die",
+    "das",
+    "des",
+    "nach",
+    "wie",
+    "la",
+    "le",
+    "les",
+    "celle",
+    "celui",
+    "de",
+    "den",
+    "van",
+    "selon",
+    "el",
+    "los",
+    "lo",
+    "di",
+    "il",
+    "quella",
+    "o",
+    "do",
+    "da",
+    "as",
+    "per",
+    "que",
+    "als",
+    "het",
+    "dem",
+    "with",
+    "any",
+    "une",
+    "un",
+    "en",
+    "seg\u{fa}n",
+    "secondo",
+];
+
+/// True if what stands before a word denies it: `not Craig`, `rather than the modified …`, `nicht nach Craig`.
+fn is_denied(before: &str) -> bool {
+    let clause = before.rsplit(['.', ';', ':', '\n']).next().unwrap_or_default();
+    let mut words = clause.split(|c: char| !(c.is_alphabetic() || c == '\'')).rev().filter(|w| !w.is_empty());
+    words.find(|w| !BETWEEN.contains(w)).is_some_and(|w| DENIALS.contains(&w) || w.ends_with("n't"))
 }
 
 /// True if no letter stands before a place.
@@ -384,6 +477,10 @@ mod tests {
             ("we use the classic (distal) assignment", vec![Standard]),
             ("DH parameters, modified (Craig)", vec![Craig]),
             ("parameters after Craig", vec![Craig]),
+            ("(DH, the textbook version, not Craig)", vec![Standard]),
+            ("the modified DH convention rather than the standard one", vec![Craig]),
+            ("DH-Tabelle (nicht nach Craig)", vec![Standard]),
+            ("not the standard but the modified DH table", vec![Craig]),
             ("Modifizierte DH-Parameter", vec![Craig]),
             ("paramètres de Khalil et Kleinfinger", vec![Khalil]),
             ("My DH table (i.e. Rz Tz Tx Rx):", vec![Standard]),

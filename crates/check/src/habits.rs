@@ -102,13 +102,23 @@ impl Columns {
 
     /// Those that a text uses.
     pub fn of(text: &str) -> Self {
-        let plain: String = plain_name(text);
         // `o = (o_x, o_y, o_z)` is a place where there are no other letters for one.
-        if plain.contains("(ox,oy,oz)") && !["nx", "sx", "px", "Px"].iter().any(|n| plain.contains(n)) {
+        let is_place = plain_name(text).contains("(ox,oy,oz)");
+        if is_place && !['n', 's', 'p', 'P'].iter().any(|&c| has_component(text, c)) {
             return Columns::Nsao;
         }
-        if plain.contains("ox") || !plain.contains("sx") { Columns::Noap } else { Columns::Snap }
+        if has_component(text, 'o') || !has_component(text, 's') { Columns::Noap } else { Columns::Snap }
     }
+}
+
+/// True if a text has the first component of a vector: `s_x`, `s_{x}`, `sx` as a word of its own.
+fn has_component(text: &str, letter: char) -> bool {
+    text.match_indices(letter).any(|(at, _)| {
+        let is_alone = !text[..at].ends_with(|c: char| c.is_alphanumeric() || matches!(c, '\\' | '_'));
+        let behind = text[at + letter.len_utf8()..].trim_start_matches(['_', '{', '}']);
+        let after = behind.strip_prefix(['x', '\u{2093}']);
+        is_alone && after.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+    })
 }
 
 /// The symbol of an entry of the pose in inverse formulas, row and column from 0.

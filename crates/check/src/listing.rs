@@ -194,7 +194,7 @@ fn told_rows(text: &str) -> Option<Listing> {
                 rows.clear();
                 if let Some(found) = order(plain) {
                     (head, gap) = (Some(found), 0);
-                    is_previous = plain.contains("i-1");
+                    is_previous = plain.contains("i-1") || plain.contains("prev");
                 } else if gap > 3 {
                     head = None;
                 }

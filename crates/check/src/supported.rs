@@ -2,7 +2,7 @@
 
 use super::note::Notes;
 use super::plan::{Plan, kind_of_tables};
-use super::{CheckOptions, convention, listing, readings};
+use super::{CheckOptions, convention, dynamics, listing, readings};
 use denavit::description::Convention;
 use denavit_reading::document::{Document, Format};
 use std::ops::Range;
@@ -36,6 +36,7 @@ pub(super) fn by_statements(
     let unsaid =
         listing::tables_of(text, kind, options, &options.table).into_iter().find(|t| t.robot.is_err())?;
     let mut scores: Vec<(Convention, [usize; 2])> = vec![];
+    let mut of_dynamics: Vec<(Convention, [usize; 2])> = vec![];
     for convention in Convention::ALL {
         let mut there = options.clone();
         there.table.convention = Some(convention);
@@ -49,20 +50,33 @@ pub(super) fn by_statements(
         };
         let score = match options.language {
             Some(_) => readings::entries(&plan.walk(text, document, &there)),
-            None => readings::support(text, document, plan, &there),
+            None => {
+                of_dynamics.push((convention, dynamics::support(text, document, &plan)));
+                readings::support(text, document, plan, &there)
+            }
         };
         scores.push((convention, score));
     }
+    // A document of torques and energies has few formulas of positions.
+    let found = clearly(scores.clone()).or_else(|| {
+        let both = |(s, d): (&(Convention, [usize; 2]), &(Convention, [usize; 2]))| {
+            (s.0, [s.1[0] + d.1[0], s.1[1] + d.1[1]])
+        };
+        clearly(scores.iter().zip(&of_dynamics).map(both).collect())
+    })?;
+    let end = text[unsaid.span.start..].find('\n').map_or(unsaid.span.end, |n| unsaid.span.start + n);
+    let (convention, right, rival) = found;
+    Some(Supported { convention, right, rival, head: unsaid.span.start..end })
+}
+
+/// The convention in which more is right and less wrong than in any other, how much is right in it and how much at most in another.
+fn clearly(mut scores: Vec<(Convention, [usize; 2])>) -> Option<(Convention, usize, usize)> {
     scores.sort_by_key(|s| std::cmp::Reverse(s.1[0]));
     let &(convention, [right, wrong]) = scores.first()?;
     let rivals = &scores[1..];
     let is_best = rivals.iter().all(|&(_, [other, wrong_there])| {
         right > other && (wrong < wrong_there || wrong == wrong_there && right >= other + CLEARLY)
     });
-    if !is_best {
-        return None;
-    }
-    let end = text[unsaid.span.start..].find('\n').map_or(unsaid.span.end, |n| unsaid.span.start + n);
     let rival = rivals.iter().map(|s| s.1[0]).max().unwrap_or(0);
-    Some(Supported { convention, right, rival, head: unsaid.span.start..end })
+    is_best.then_some((convention, right, rival))
 }

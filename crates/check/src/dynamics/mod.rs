@@ -28,7 +28,7 @@ mod words;
 use crate::facts::{About, Dynamic, Unproved};
 use crate::formula::Formula;
 use crate::note::Unreadable;
-use crate::outcome::{Claim, Entry, Finding, Skipped, Unjudged};
+use crate::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
 use crate::plan::Plan;
 use denavit_reading::document::{Document, Side, Statement};
 use quantity::Quantity;
@@ -60,6 +60,18 @@ pub(super) fn judged(text: &str, taken: &[Statement], plan: &Plan, first: usize)
         of_robot(text, &statements, plan, number, first, &mut judged);
     }
     judged
+}
+
+/// How many statements about dynamics are right of a plan's robots, and how many are wrong.
+pub(super) fn support(text: &str, document: &Document, plan: &Plan) -> [usize; 2] {
+    let mut document = document.clone();
+    let taken = taken(text, &mut document, &plan.tables);
+    let claims = judged(text, &taken, plan, 0).claims;
+    let count = |is_so: fn(Standing) -> bool| claims.iter().filter(|c| is_so(c.standing())).count();
+    [
+        count(|s| s == Standing::Equal),
+        count(|s| matches!(s, Standing::Wrong | Standing::Carried | Standing::Undecided)),
+    ]
 }
 
 fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: usize, judged: &mut Judged) {

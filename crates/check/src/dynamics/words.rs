@@ -89,6 +89,10 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
             }
             continue;
         }
+        // `g l_1` with no blank between: of letters that are squeezed so, gravity's has no index ever.
+        if base.chars().count() <= 3 && base.starts_with('g') && base.len() > 1 {
+            found.insert("g".to_string());
+        }
         for base in
             [Some(last), long, (base.chars().count() <= 4).then(|| base.clone())].into_iter().flatten()
         {

@@ -186,7 +186,7 @@ fn with_entries(text: &str, name: &str, language: Dialect) -> String {
         let behind = &rest[i + name.len()..];
         out += &rest[..i];
         let is_word = !before.is_some_and(|c| c.is_alphanumeric() || c == '_');
-        match entry(behind, first).filter(|_| is_word) {
+        match vector_of(name).and_then(|v| entry(behind, first, v)).filter(|_| is_word) {
             Some((entry, length)) => {
                 let whole = name.len() + length;
                 out += &format!("{entry:whole$}");
@@ -201,7 +201,19 @@ fn with_entries(text: &str, name: &str, language: Dialect) -> String {
     out + rest
 }
 
-/// `q.tilt`, `p->x` by the field alone; x, y, z of an argument are the place of the hand.
+/// The letter of a pose's column that a vector has, by its name; those that have no other one are the place of the hand.
+fn vector_of(name: &str) -> Option<&'static str> {
+    let lower = name.to_lowercase();
+    match lower.trim_end_matches(['_', '0']) {
+        "n" | "nvec" | "n_vec" | "normal" => Some("n"),
+        "a" | "avec" | "a_vec" | "approach" => Some("a"),
+        // Which direction of the hand, its name does not say.
+        other if ["dir", "axis", "orient", "unit"].iter().any(|w| other.contains(w)) => None,
+        _ => Some("p"),
+    }
+}
+
+/// `q.tilt`, `p->x` by the field alone; x, y, z of an argument are the place of the hand, or a direction of it by its name.
 fn with_fields(text: &str, region: &Region) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
@@ -219,8 +231,12 @@ fn with_fields(text: &str, region: &Region) -> String {
             rest = behind;
             continue;
         }
-        let is_place = region.parameters.iter().any(|p| p == word) && matches!(field, "x" | "y" | "z");
-        let now = if is_place { format!("p{field}") } else { field.to_string() };
+        let is_entry = region.parameters.iter().any(|p| p == word) && matches!(field, "x" | "y" | "z");
+        let now = match vector_of(word).filter(|_| is_entry) {
+            Some(letter) => format!("{letter}{field}"),
+            None if is_entry => rest[i..i + length].to_string(),
+            None => field.to_string(),
+        };
         out += &format!("{now:length$}");
         rest = &rest[i + length..];
     }
@@ -228,7 +244,7 @@ fn with_fields(text: &str, region: &Region) -> String {
 }
 
 /// The entry of the pose that indices name, and their length.
-fn entry(text: &str, first: usize) -> Option<(String, usize)> {
+fn entry(text: &str, first: usize, vector: &str) -> Option<(String, usize)> {
     let close = match text.chars().next()? {
         '[' => ']',
         '(' if first == 1 => ')',
@@ -246,7 +262,7 @@ fn entry(text: &str, first: usize) -> Option<(String, usize)> {
     let indices: Vec<usize> = indices.into_iter().map(|k| k.checked_sub(first)).collect::<Option<_>>()?;
     let axis = |k: usize| ["x", "y", "z"].get(k).copied();
     match indices[..] {
-        [r] => Some((format!("p{}", axis(r)?), length)),
+        [r] => Some((format!("{vector}{}", axis(r)?), length)),
         [r, 3] => Some((format!("p{}", axis(r)?), length)),
         [r, c] if r < 3 && c < 3 => Some((format!("r{}{}", r + 1, c + 1), length)),
         _ => None,
@@ -294,7 +310,7 @@ mod tests {
     fn lines_of_programs_as_formulas() {
         let region = Region {
             function: None,
-            parameters: vec!["T".into(), "p".into()],
+            parameters: vec!["T".into(), "p".into(), "n".into(), "tool_dir".into()],
             signs: vec!["s".into(), "elbow".into()],
             lines: vec![],
             renamed: vec![],
@@ -305,6 +321,9 @@ mod tests {
             (Dialect::Python, "a - elbow * b", "a ∓       b"),
             (Dialect::Python, "T[0, 3] - d*T[0,2]", "px      - d*r13   "),
             (Dialect::Python, "T[1][3] + p[2]", "py      + pz  "),
+            (Dialect::C, "atan2(-n.y, p.x)", "atan2(-ny , px )"),
+            (Dialect::C, "asin(tool_dir[0])", "asin(tool_dir[0])"),
+            (Dialect::C, "asin(tool_dir.x)", "asin(tool_dir.x)"),
             (Dialect::Matlab, "atan2(p(2), T(1,4)) .* c.^2", "atan2(py  , px    )  * c ^2"),
         ] {
             let found = spelled(line, &region, language);

@@ -98,8 +98,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Rates that words give joint by joint, each by an ordinal behind it or a name before it: `0.8 rad/s na primeira junta e 0.5 rad/s
-    /// na segunda`, `q1 at 10 °/s, q2 and q3 at rest`. Joints of which nothing is said keep their rates, and are still where words say
+    /// Rates that words give joint by joint, each by an ordinal or a number behind it or a name before it: `0.8 rad/s na primeira junta
+    /// e 0.5 rad/s na segunda`, `0.5 rad/s on joint 1`, `q1 at 10 °/s, q2 and q3 at rest`. Joints of which nothing is said keep their rates, and are still where words say
     /// so.
     fn told_one_by_one(&mut self, line: &str, kinds: &[JointKind]) -> bool {
         let all: Vec<Quantity> = runs(line).into_iter().flatten().collect();
@@ -110,7 +110,9 @@ impl Walk<'_> {
             let next = quantities.get(k + 1).map_or(line.len(), |n| n.start);
             let behind = line.get(q.end..next).unwrap_or_default();
             let before = line.get(..q.start).unwrap_or_default();
-            let Some(joint) = ordinal(behind).or_else(|| self.joint_before(before)) else { return false };
+            let by_number = || joint_named(&behind.to_lowercase())?.checked_sub(1);
+            let joint = ordinal(behind).or_else(by_number).or_else(|| self.joint_before(before));
+            let Some(joint) = joint else { return false };
             let fits =
                 kinds.get(joint).is_some_and(|kind| unit.ends_with("m/s") == (*kind == JointKind::Prismatic));
             if !fits || given[joint].is_some() {
@@ -204,7 +206,10 @@ fn next_quantity(line: &str, from: usize) -> Option<Quantity<'_>> {
         let before = line[..start].trim_end();
         let is_part = line[..start].ends_with(|c: char| c.is_alphanumeric() || "_{^.".contains(c));
         at = digit + length.max(1);
-        if is_part || before.ends_with('=') || bytes.get(digit + digits.len()) == Some(&b'_') {
+        // `joint 2` is a name.
+        let last = before.rsplit(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_lowercase();
+        let is_name = JOINT.contains(&last.as_str());
+        if is_part || is_name || before.ends_with('=') || bytes.get(digit + digits.len()) == Some(&b'_') {
             continue;
         }
         let rest = &line[digit + digits.len()..];
@@ -236,6 +241,7 @@ mod tests {
             ("were 0.5 rad/s, -0.1 m/s and 0.2 m/s. Jacobian", vec!["0.5 rad/s", "-0.1 m/s", "0.2 m/s"]),
             ("avec 6 rad/s sur l'axe 1 seul", vec!["6 rad/s"]),
             ("q1 = 0.3 rad/s", vec![]),
+            ("0.5 rad/s on joint 1 and -0.3 rad/s on joint 2", vec!["0.5 rad/s"]),
         ] {
             let runs = runs(line);
             let shown: Vec<String> = runs

@@ -123,7 +123,9 @@ pub(super) fn name_of(text: &str, document: bool) -> Option<String> {
 /// True for names that stand for something else already: π, functions, units, `C1`, `S23`.
 pub(super) fn is_reserved(name: &str) -> bool {
     let index = name.strip_prefix(['C', 'S', 'c', 's']).unwrap_or("");
-    let trigonometric = !index.is_empty() && index.bytes().all(|b| b.is_ascii_digit());
+    // Joints are counted from 1: `s0` is a length as good as any.
+    let digits = !index.is_empty() && index.bytes().all(|b| b.is_ascii_digit());
+    let trigonometric = digits && !index.starts_with('0');
     let word = ["sin", "cos", "tan", "sqrt", "atan2", "pi", "inf", "nan", "NaN", "infinity"].contains(&name);
     let unit = super::units::unit_named(name)
         .is_some_and(|u| matches!(u.quantity, Quantity::Angle | Quantity::Length) && name != "m");

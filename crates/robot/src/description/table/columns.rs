@@ -315,7 +315,7 @@ fn symbol(plain: &str) -> (Role, bool) {
             let index = index.trim_start_matches(',');
             match index {
                 "" | "i" | "j" | "k" | "n" => return (role, false),
-                "i-1" | "j-1" | "k-1" | "n-1" => return (role, true),
+                "i-1" | "j-1" | "k-1" | "n-1" | "prev" | "previous" => return (role, true),
                 _ => {}
             }
         }
@@ -340,6 +340,7 @@ mod tests {
             ("⍺ⱼ₋₁", Role::Alpha, true, ""),
             ("a_{i−1} [mm]", Role::A, true, "mm"),
             ("a(i-1)", Role::A, true, ""),
+            ("alpha_prev", Role::Alpha, true, ""),
             ("α [°]", Role::Alpha, false, "°"),
             ("$\\alpha$ ($^\\circ$)", Role::Alpha, false, "°"),
             ("d/mm", Role::D, false, "mm"),
