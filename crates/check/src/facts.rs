@@ -63,6 +63,10 @@ pub enum Dynamic {
     Energy,
     /// A derivative of an energy.
     Derivative,
+    /// Where a point of a link is.
+    Place,
+    /// How fast it moves.
+    Motion,
 }
 
 /// What a matrix or a vector is by the robot. Frames are numbered by rows; the tool is the hand.

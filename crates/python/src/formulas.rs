@@ -3,7 +3,7 @@
 use crate::named::{body, options, reference};
 use crate::trouble::{Found, Kind, Trouble, apart, found};
 use denavit::description::Description;
-use denavit::dynamics::{DynamicModel, Loads, Recursion};
+use denavit::dynamics::{DynamicModel, Loads, Recursion, Representatives};
 use denavit::forward::Outputs;
 use denavit::inverse::InverseModel;
 use denavit::velocity::{JacobianModel, Obstacle, Singularities, singular_configurations};
@@ -20,6 +20,7 @@ use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{Arm, FigureOptions, isometric, scheme as line_diagram};
 use denavit_report::words::Tongue;
 use denavit_report::{Derivation, Document, Part, ReportOptions, Section, render};
+use denavit_symbolic::Symbol;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
 use pyo3::prelude::*;
@@ -159,12 +160,30 @@ pub fn jacobian(d: &Description, format: &str, of: &str) -> Result<String, Troub
     }
 }
 
+/// Torques as formulas, in base parameters for which parameters of the links stand that are chosen, where there are any.
+///
+/// # Errors
+/// If these cannot be chosen.
+pub fn torques(d: &Description, kept: &[String], dropped: &[String]) -> Result<DynamicModel, Trouble> {
+    let symbols = |names: &[String]| names.iter().map(|name| Symbol::new(name)).collect();
+    let wanted = Representatives { kept: symbols(kept), dropped: symbols(dropped) };
+    if wanted == Representatives::default() {
+        return Ok(DynamicModel::derive(d));
+    }
+    DynamicModel::derive_for(d, &wanted).map_err(|why| Trouble::new(Kind::Usage, why.to_string()))
+}
+
 /// Torques as formulas, step by step.
 ///
 /// # Errors
-/// If there is no such format.
-pub fn dynamics(d: &Description, format: &str) -> Result<String, Trouble> {
-    let model = DynamicModel::derive(d);
+/// If there is no such format, or parameters cannot be chosen.
+pub fn dynamics(
+    d: &Description,
+    format: &str,
+    kept: &[String],
+    dropped: &[String],
+) -> Result<String, Trouble> {
+    let model = torques(d, kept, dropped)?;
     let recursion = Recursion::derive(d, &model.formulas, &model.base);
     let names = recursion_vocabulary(d, &model, &recursion);
     let blocks = dynamics_explanation(d, &model, &recursion, Tongue::English);

@@ -419,8 +419,14 @@ impl Core {
     }
 
     /// Torques in formulas.
-    fn dynamics_explain(&self, py: Python<'_>, format: String) -> PyResult<String> {
-        self.derive(py, move |d| formulas::dynamics(d, &format))
+    fn dynamics_explain(
+        &self,
+        py: Python<'_>,
+        format: String,
+        kept: Vec<String>,
+        dropped: Vec<String>,
+    ) -> PyResult<String> {
+        self.derive(py, move |d| formulas::dynamics(d, &format, &kept, &dropped))
     }
 
     /// What `derive_text`, `ik_explain`, `jacobian_explain` and `dynamics_explain` write, as nodes.
@@ -447,8 +453,13 @@ impl Core {
         self.derive(py, move |d| symbols::jacobian(d, &of))
     }
 
-    fn dynamics_nodes(&self, py: Python<'_>) -> PyResult<symbols::Listed> {
-        self.derive(py, move |d| Ok(symbols::dynamics(d)))
+    fn dynamics_nodes(
+        &self,
+        py: Python<'_>,
+        kept: Vec<String>,
+        dropped: Vec<String>,
+    ) -> PyResult<symbols::Listed> {
+        self.derive(py, move |d| symbols::dynamics(d, &kept, &dropped))
     }
 
     /// The whole report.

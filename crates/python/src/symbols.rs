@@ -3,7 +3,6 @@
 use crate::named::{body, options, reference};
 use crate::trouble::{Kind, Trouble, apart};
 use denavit::description::Description;
-use denavit::dynamics::DynamicModel;
 use denavit::forward::Outputs;
 use denavit::inverse::InverseModel;
 use denavit::velocity::{JacobianModel, Singularities};
@@ -119,8 +118,11 @@ pub fn jacobian(d: &Description, of: &str) -> Result<Listed, Trouble> {
 }
 
 /// The parts of the torques, base parameters, and the steps.
-pub fn dynamics(d: &Description) -> Listed {
-    let model = DynamicModel::derive(d);
+///
+/// # Errors
+/// If parameters cannot be chosen.
+pub fn dynamics(d: &Description, kept: &[String], dropped: &[String]) -> Result<Listed, Trouble> {
+    let model = crate::formulas::torques(d, kept, dropped)?;
     let mut list = List::default();
     if let Some(parts) = &model.parts {
         list.add("inertia", parts.inertia.clone());
@@ -131,7 +133,7 @@ pub fn dynamics(d: &Description) -> Listed {
         list.add(format!("base {}", base.symbol.name()), [vec![base.value]]);
     }
     list.steps(&model.torques.steps());
-    list.done()
+    Ok(list.done())
 }
 
 /// The equations of the closed form, step by step.

@@ -5,7 +5,7 @@ import pickle
 import numpy as np
 import pytest
 
-from denavit import Derivation, Robot, UnsupportedError, _denavit
+from denavit import Derivation, Robot, UnsupportedError, UsageError, _denavit
 from test_numbers import with_values
 
 sympy = pytest.importorskip("sympy")
@@ -94,6 +94,28 @@ def test_torques_are_those_that_are_computed():
     wanted = robot.inertia(rows).reshape(-1)
     fitted, *_ = np.linalg.lstsq(columns, wanted, rcond=None)
     assert np.abs(columns @ fitted - wanted).max() < 1e-12
+
+
+def test_representatives_of_base_parameters_are_chosen():
+    robot = Robot("planar-2r")
+    plain = robot.dynamics_explain().to_sympy()
+    kept = robot.dynamics_explain(keep="M2", drop=["ZZ1"]).to_sympy()
+    named = [{str(step.name) for step in found.base} for found in (plain, kept)]
+    assert "ZZR1" in named[0] and "MR2" not in named[0]
+    assert "MR2" in named[1] and "ZZR1" not in named[1]
+    assert "MR2" in robot.dynamics_explain(keep=["M2"], format="latex").to("text")
+    # In the parameters of the links the torques are the same.
+    matrices = [f.inertia.subs({step.name: step.value for step in f.base}) for f in (plain, kept)]
+    assert plain.inertia != kept.inertia
+    assert (matrices[0] - matrices[1]).applyfunc(sympy.simplify) == sympy.zeros(2, 2)
+    for wrong, why in [
+        ({"keep": "XX1"}, "XX1 has no effect"),
+        ({"keep": ["ZZ1", "M2"]}, "cannot be kept with the others"),
+        ({"keep": "M2", "drop": "M2"}, "kept and dropped"),
+        ({"drop": "ZZ9"}, "no parameter ZZ9"),
+    ]:
+        with pytest.raises(UsageError, match=why):
+            robot.dynamics_explain(**wrong)
 
 
 def test_the_closed_form_of_two_links():

@@ -3,12 +3,12 @@
 use super::bodies::bodies;
 use super::letters::{Letters, letters, maps};
 use super::measures::{Measures, measures};
-use super::model::{Coordinates, Model, Numbers, moving_rows};
+use super::model::{ALONG, COUPLED, Coordinates, Model, Numbers, Rotor, moving_rows, numbers};
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
 use super::told::{Told, told};
 use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
-use super::words::{Role, names, words};
+use super::words::{Role, names, role, words};
 use crate::subject::Subject;
 use denavit::description::JointKind;
 use denavit_reading::document::Statement;
@@ -108,7 +108,13 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
     let sources = all.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
     let mentioned: BTreeSet<String> = sources.flat_map(words).collect();
     let symbols = Rc::new(Symbols::new(n));
-    let generic: Vec<Numbers> = symbols.bodies.iter().map(|b| b.map(Expr::from)).collect();
+    let has_rotor = mentioned.iter().any(|w| matches!(role(w, n), Some(Role::Rotor(_))));
+    let generic = symbols.bodies.iter().map(|b| -> Numbers {
+        // What goes with a rotor alone.
+        let is_none = |p: usize| matches!(p, COUPLED | ALONG) && !has_rotor;
+        std::array::from_fn(|p| if is_none(p) { Expr::int(0) } else { b[p].into() })
+    });
+    let generic: Vec<Numbers> = generic.collect();
     let gravity = symbols.gravity.map(Expr::from);
     let told = told(text);
     let bounds = Rc::new(Bounds::default());
@@ -282,9 +288,8 @@ fn attempted(
 /// The numbers of a link that the robot's own file gives.
 fn given_numbers(row: &denavit::description::Row) -> Numbers {
     let o = Expr::int(0);
-    let body = row.body().map_or([o; 10], |b| b.parameters());
-    let rotor = row.rotor.unwrap_or(o);
-    std::array::from_fn(|p| body.get(p).copied().unwrap_or(rotor))
+    let ten = row.body().map_or([o; 10], |b| b.parameters());
+    numbers(ten, Rotor::felt(row.rotor.unwrap_or(o)), row.com.unwrap_or([o; 3]))
 }
 
 /// In which ways the bodies and gravity of a document may be read: all, and those that its words tell.

@@ -181,6 +181,11 @@ impl Asked<'_, '_> {
                 sum(vec![slope, (-gravity.0, gravity.1)])
             }
             Quantity::InertiaRate(..)
+            | Quantity::Link(_)
+            | Quantity::Coordinate(..)
+            | Quantity::Rate(..)
+            | Quantity::Slope(..)
+            | Quantity::Speed(..)
             | Quantity::Asada(..)
             | Quantity::Energy
             | Quantity::Kinetic(Some(_))

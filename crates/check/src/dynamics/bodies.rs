@@ -1,7 +1,7 @@
 //! What the mass of a link may look like: where its centre is, and about which point its inertia is meant, in the symbols that the
 //! document has for them. The first are the more usual ones.
 
-use super::model::{NUMBERS, Numbers};
+use super::model::{Numbers, Rotor, numbers};
 use super::told::Point;
 use super::words::Role;
 use denavit::description::{Description, JointKind};
@@ -37,6 +37,16 @@ struct Points {
     ends: Vec<Vector<Expr>>,
     /// The direction of its own axis.
     axis: Vector<Expr>,
+}
+
+/// Where the link of a row ends, in the row's frame.
+pub(super) fn ends(d: &Description, row: usize) -> Vec<Vector<Expr>> {
+    points(d, row).ends
+}
+
+/// The direction of the axis of a row that moves, in its frame.
+pub(super) fn axis(d: &Description, row: usize) -> Vector<Expr> {
+    points(d, row).axis
 }
 
 fn points(d: &Description, row: usize) -> Points {
@@ -180,26 +190,21 @@ pub(super) fn bodies(
     told: Option<Point>,
 ) -> (Vec<Numbers>, bool) {
     let o = Expr::int(0);
-    let with_rotor = |ten: [Expr; 10], rotor: Expr| -> Numbers {
-        std::array::from_fn(|p| if p < 10 { ten[p] } else { rotor })
-    };
+    let none = Rotor::felt(o);
     if let Some(body) = d.rows[row].body() {
-        return (vec![with_rotor(body.parameters(), o)], false);
+        return (vec![numbers(body.parameters(), none, d.rows[row].com.unwrap_or([o; 3]))], false);
     }
     let of = |wanted: &dyn Fn(Role) -> bool| -> Vec<Expr> {
         roles.iter().filter(|(_, r)| wanted(**r)).map(|(s, _)| meaning(*s)).collect()
     };
     if roles.values().any(|r| matches!(r, Role::Ten(..))) {
         // Khalil's numbers, those that the document does not mention with names of their own.
-        let ten = std::array::from_fn(|at| {
-            let is_it = |r| match r {
-                Role::Mass(of) => at == 9 && of == Some(k),
-                Role::Rotor(of) => at + 1 == NUMBERS && of == Some(k),
-                r => r == Role::Ten(k, at),
-            };
-            of(&is_it).first().copied().unwrap_or(o)
+        let first = |wanted: &dyn Fn(Role) -> bool| of(wanted).first().copied().unwrap_or(o);
+        let ten = std::array::from_fn(|at| match at {
+            9 => first(&|r| r == Role::Mass(Some(k))),
+            _ => first(&|r| r == Role::Ten(k, at)),
         });
-        return (vec![ten], false);
+        return (vec![numbers(ten, Rotor::felt(first(&|r| r == Role::Rotor(Some(k)))), [o; 3])], false);
     }
     let prefer = |own: Vec<Expr>, shared: Vec<Expr>| if own.is_empty() { shared } else { own };
     let mut masses = prefer(of(&|r| r == Role::Mass(Some(k))), of(&|r| r == Role::Mass(None)));
@@ -220,36 +225,59 @@ pub(super) fn bodies(
     let points = points(d, row);
     let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
     let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
-    // A rotor behind a gear.
+    // A rotor behind a gear, whose ratio may be Spong's `r_1`.
     let gears = prefer(of(&|r| r == Role::Gear(Some(k))), of(&|r| r == Role::Gear(None)));
-    let geared = rotors.iter().flat_map(|r| gears.iter().map(move |n| n.powi(2) * *r));
-    let rotors: Vec<Expr> = geared.chain(rotors.iter().copied()).collect();
+    let is_ratio = |(s, r): &(&Symbol, &Role)| **r == Role::Length(Some(k)) && s.name().starts_with('r');
+    let gears = prefer(gears, roles.iter().filter(is_ratio).map(|(s, _)| meaning(*s)).collect());
+    let is_turning = d.rows[row].variable.is_some_and(|v| v.kind == JointKind::Revolute);
+    let mut turned: Vec<Rotor> = vec![];
+    for (&rotor, &n) in rotors.iter().flat_map(|r| gears.iter().map(move |n| (r, n))) {
+        turned.push(Rotor::felt(n.powi(2) * rotor));
+        if is_turning {
+            // It turns with the link before, too: ½ J (ω + N q̇)² = ½ J (ω + q̇)² + (N − 1) J ω q̇ + ½ (N² − 1) J q̇².
+            let one = Expr::int(1);
+            turned.push(Rotor {
+                inertia: (n.powi(2) - one) * rotor,
+                coupled: (n - one) * rotor,
+                along: rotor,
+            });
+        }
+    }
+    turned.extend(rotors.iter().map(|r| Rotor::felt(*r)));
+    // The mass of a motor on the axis of a joint that turns moves with either link.
+    let motors = if is_turning { of(&|r| r == Role::Motor(k)) } else { vec![] };
     // Where none is named so, `J` beside `I`, or the only inertia that there is, may be that of a rotor.
-    let mut ways: Vec<(Expr, Vec<Expr>)> = rotors.iter().map(|r| (*r, inertias.clone())).collect();
-    ways.push((o, inertias.clone()));
+    let mut ways: Vec<(Rotor, Vec<Expr>)> = turned.iter().map(|r| (*r, inertias.clone())).collect();
+    ways.push((none, inertias.clone()));
     if rotors.is_empty() {
         for (at, &rotor) in inertias.iter().enumerate() {
             let others = inertias.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, e)| *e);
-            ways.push((rotor, others.collect()));
+            ways.push((Rotor::felt(rotor), others.collect()));
         }
     }
     let found: RefCell<Vec<Numbers>> = RefCell::default();
     let tried = Cell::new(0);
     let is_full = || found.borrow().len() >= MAX_BODIES || tried.get() >= MAX_TRIED;
-    let rotor_now = Cell::new(o);
-    let add = |body: Body<Expr>, mass_at_end: &dyn Fn(Body<Expr>) -> Vec<Body<Expr>>| {
-        if is_full() {
-            return;
-        }
-        tried.set(tried.get() + 1);
-        for body in mass_at_end(body) {
-            let numbers = with_rotor(body.parameters(), rotor_now.get());
-            let mut found = found.borrow_mut();
-            if found.len() < MAX_BODIES && !found.contains(&numbers) {
-                found.push(numbers);
+    let rotor_now = Cell::new(none);
+    let add =
+        |body: Body<Expr>, centre: Vector<Expr>, mass_at_end: &dyn Fn(Body<Expr>) -> Vec<Body<Expr>>| {
+            if is_full() {
+                return;
             }
-        }
-    };
+            tried.set(tried.get() + 1);
+            // Of nothing no place is the centre.
+            let centre = if body.mass.is_zero() { [o; 3] } else { centre.0 };
+            for mut body in mass_at_end(body) {
+                for &motor in &motors {
+                    body = body + Body::about_centre(motor, points.joints[0], [o; 6]);
+                }
+                let numbers = numbers(body.parameters(), rotor_now.get(), centre);
+                let mut found = found.borrow_mut();
+                if found.len() < MAX_BODIES && !found.contains(&numbers) {
+                    found.push(numbers);
+                }
+            }
+        };
     let loaded = |body: Body<Expr>| -> Vec<Body<Expr>> {
         match loads[..] {
             [load] => {
@@ -282,32 +310,32 @@ pub(super) fn bodies(
                 let [x, y, z] = axes.map(|e| e.unwrap_or(o));
                 let tensor = [x, o, o, y, o, z];
                 if is_centre {
-                    add(with(tensor), &loaded);
+                    add(with(tensor), c, &loaded);
                 }
                 for &joint in points.joints.iter().filter(|_| is_joint) {
-                    add(about_joint(mass, c, joint, tensor), &loaded);
+                    add(about_joint(mass, c, joint, tensor), c, &loaded);
                 }
                 continue;
             }
             for &inertia in inertias.iter().filter(|_| is_centre) {
-                add(with([inertia, o, o, inertia, o, inertia]), &loaded);
+                add(with([inertia, o, o, inertia, o, inertia]), c, &loaded);
             }
             for &inertia in inertias {
                 for &joint in points.joints.iter().filter(|_| is_joint) {
-                    add(about_joint(mass, c, joint, [inertia, o, o, inertia, o, inertia]), &loaded);
+                    add(about_joint(mass, c, joint, [inertia, o, o, inertia, o, inertia]), c, &loaded);
                 }
                 if let (Some((_, u)), true) = (place.rod, is_centre) {
-                    add(with(slender(inertia, &u)), &loaded);
+                    add(with(slender(inertia, &u)), c, &loaded);
                 }
                 if is_centre {
-                    add(with(slender(inertia, &Vector([Expr::int(1), o, o]))), &loaded);
+                    add(with(slender(inertia, &Vector([Expr::int(1), o, o]))), c, &loaded);
                 }
             }
             if inertias.is_empty() {
-                add(with([o; 6]), &loaded);
+                add(with([o; 6]), c, &loaded);
                 if let Some((length, u)) = place.rod {
                     let twelfth = Expr::from(Rational::new(1, 12));
-                    add(with(slender(twelfth * mass * length.powi(2), &u)), &loaded);
+                    add(with(slender(twelfth * mass * length.powi(2), &u)), c, &loaded);
                 }
             }
         }

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A factor of a term.
-enum Factor<'a> {
+pub(super) enum Factor<'a> {
     Grid(&'a Grid),
     Scalar(Expr),
     /// q̇ or q̈
@@ -29,11 +29,11 @@ enum Kind {
     Other,
 }
 
-type Cells = Vec<Vec<(Range<usize>, Syntax)>>;
+pub(super) type Cells = Vec<Vec<(Range<usize>, Syntax)>>;
 
 impl Reader<'_> {
     /// The cells of a matrix of formulas; nothing where one is none.
-    fn cells(&self, grid: &Grid, errors: &mut Vec<Unread>) -> Option<Cells> {
+    pub(super) fn cells(&self, grid: &Grid, errors: &mut Vec<Unread>) -> Option<Cells> {
         if grid.rows.iter().map(Vec::len).sum::<usize>() > 100 {
             return None;
         }
@@ -56,6 +56,17 @@ impl Reader<'_> {
         let mut name = None;
         let mut errors = vec![];
         let before = self.read.pieces.len();
+        let point = statement.sides.first().and_then(formula_span).and_then(|span| self.named(&span));
+        if let Some(point) = point.filter(|p| p.is_centre) {
+            for side in &statement.sides[1..] {
+                self.point_matrix(at, side, &point, &mut errors);
+            }
+            if self.read.pieces.len() == before && !errors.is_empty() {
+                errors.truncate(5);
+                self.read.unread.push((at, errors));
+            }
+            return;
+        }
         for (i, side) in statement.sides.iter().enumerate() {
             if let Some(span) = formula_span(side) {
                 name = name.or_else(|| lone_name(self.text, &span));
@@ -125,7 +136,8 @@ impl Reader<'_> {
             value: cell.1.value(),
             candidates,
             row: None,
-            is_nameless: self.has_gear(cell.1.value()),
+            is_nameless: false,
+            gears: self.gears(cell.1.value()),
             symbol: None,
             uses: vec![],
         });
@@ -255,7 +267,7 @@ impl Reader<'_> {
     }
 
     /// The terms of a side, each with its factors.
-    fn terms<'s>(&self, side: &'s Side) -> Option<Vec<(bool, Vec<Factor<'s>>)>> {
+    pub(super) fn terms<'s>(&self, side: &'s Side) -> Option<Vec<(bool, Vec<Factor<'s>>)>> {
         let mut terms: Vec<(bool, Vec<Factor<'_>>)> = vec![(false, vec![])];
         for part in &side.parts {
             match part {
@@ -410,7 +422,8 @@ impl Reader<'_> {
                     value,
                     candidates,
                     row,
-                    is_nameless: self.has_gear(value),
+                    is_nameless: false,
+                    gears: self.gears(value),
                     symbol: None,
                     uses: vec![],
                 });
@@ -431,7 +444,7 @@ fn entries(cells: &Cells) -> Vec<Entry> {
     rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, cell)| ((i, j), cell.clone()))).collect()
 }
 
-fn times(a: &[Vec<Expr>], b: &[Vec<Expr>]) -> Option<Vec<Vec<Expr>>> {
+pub(super) fn times(a: &[Vec<Expr>], b: &[Vec<Expr>]) -> Option<Vec<Vec<Expr>>> {
     let columns = b.first()?.len();
     let fits = a.iter().all(|r| r.len() == b.len()) && b.iter().all(|r| r.len() == columns);
     let entry =

@@ -81,7 +81,7 @@ fn unit(rest: &str, role: Role) -> Option<Rational> {
         return Some(one());
     }
     match role {
-        Role::Mass(_) | Role::Payload => {
+        Role::Mass(_) | Role::Motor(_) | Role::Payload => {
             let kilo = rest.strip_prefix("kg").filter(|r| ends(r) && !is_squared(r)).map(|_| one());
             kilo.or_else(|| rest.strip_prefix('g').filter(|r| ends(r) && !is_squared(r)).map(|_| milli()))
         }

@@ -15,8 +15,10 @@ mod letters;
 mod matrices;
 mod measures;
 mod model;
+mod points;
 mod quantity;
 mod repair;
+mod slopes;
 mod statements;
 mod taken;
 mod together;
@@ -225,10 +227,12 @@ fn kind(quantity: Quantity) -> Dynamic {
         | Quantity::Asada(..)
         | Quantity::CoriolisEntry(..) => Dynamic::Coriolis,
         Quantity::Gravity(_) => Dynamic::Gravity,
-        Quantity::Kinetic(_) => Dynamic::Kinetic,
+        Quantity::Kinetic(_) | Quantity::Link(_) => Dynamic::Kinetic,
         Quantity::Potential(_) => Dynamic::Potential,
         Quantity::Lagrangian => Dynamic::Lagrangian,
         Quantity::Energy => Dynamic::Energy,
+        Quantity::Coordinate(..) => Dynamic::Place,
+        Quantity::Rate(..) | Quantity::Slope(..) | Quantity::Speed(..) => Dynamic::Motion,
         Quantity::Momentum(_)
         | Quantity::MomentumRate(_)
         | Quantity::KineticSlope(_)

@@ -1,6 +1,8 @@
 //! What the robot's own dynamics make of a quantity, for bodies and a gravity that are given, or that are symbols: all is linear in
 //! the numbers of each body, and affine in gravity.
 
+use super::bodies::{axis, ends};
+use super::points::{self, Place};
 use super::quantity::Quantity;
 use crate::jacobians::derivative;
 use denavit::description::Description;
@@ -13,10 +15,50 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// How many numbers a link has.
-pub(super) const NUMBERS: usize = 11;
+pub(super) const NUMBERS: usize = 23;
+/// Where the numbers of its [`Rotor`] stand, a one, its centre of mass, and the products of the centre's coordinates, xx xy xz yy yz zz.
+pub(super) const ROTOR: usize = 10;
+pub(super) const COUPLED: usize = 11;
+pub(super) const ALONG: usize = 12;
+const ONE: usize = 13;
+const CENTRE: usize = 14;
+const PRODUCTS: usize = 17;
 
-/// The ten numbers of a body about the origin of its row's frame, and the inertia of the rotor that turns it.
+/// The ten numbers of a body about the origin of its row's frame, those of the rotor that turns it, and those of its centre of mass: all
+/// that is said of an arm is linear in them.
 pub(super) type Numbers = [Expr; NUMBERS];
+
+/// What the rotor of a joint adds to the kinetic energy: the factors of
+#[derive(Clone, Copy)]
+pub(super) struct Rotor {
+    /// ½ q̇²
+    pub inertia: Expr,
+    /// q̇ times the rate at which the link before turns about the axis
+    pub coupled: Expr,
+    /// half the square of the rate at which the link turns about it
+    pub along: Expr,
+}
+
+impl Rotor {
+    /// One with an inertia as the joint feels it.
+    pub fn felt(inertia: Expr) -> Self {
+        Rotor { inertia, coupled: Expr::int(0), along: Expr::int(0) }
+    }
+}
+
+/// The numbers of a link.
+pub(super) fn numbers(ten: [Expr; 10], rotor: Rotor, centre: [Expr; 3]) -> Numbers {
+    let mut all = [Expr::int(0); NUMBERS];
+    all[..10].copy_from_slice(&ten);
+    (all[ROTOR], all[COUPLED], all[ALONG]) = (rotor.inertia, rotor.coupled, rotor.along);
+    all[ONE] = Expr::int(1);
+    all[CENTRE..PRODUCTS].copy_from_slice(&centre);
+    let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+    for (of, (i, j)) in all[PRODUCTS..].iter_mut().zip(pairs) {
+        *of = centre[i] * centre[j];
+    }
+    all
+}
 
 /// The coordinates in which a document has its formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -43,10 +85,28 @@ pub(super) struct Model {
     inertia: Vec<Vec<Expr>>,
     velocity: Vec<Expr>,
     gravity: Vec<Expr>,
-    /// Of each body.
+    /// Of each body with its rotor.
     kinetic: Vec<Expr>,
+    /// Of each body alone.
+    of_links: Vec<Expr>,
     potential: Vec<Expr>,
     slopes: RefCell<BTreeMap<(usize, usize, usize), Option<Expr>>>,
+    points: Points,
+    /// Angles are those against the base.
+    is_absolute: bool,
+}
+
+/// Where a point of a link is in the base, and the square of its speed.
+type Moving = ([Expr; 3], Expr);
+
+/// The points of an arm's links.
+struct Points {
+    /// The arm, without masses.
+    arm: Description,
+    rows: Vec<usize>,
+    /// Of each link its one, its centre, and the products of this one's coordinates.
+    numbers: Vec<[Expr; NUMBERS - ONE]>,
+    known: RefCell<BTreeMap<(usize, Place), Option<Moving>>>,
 }
 
 /// The rows that move, of an arm in which each joint moves one row.
@@ -72,14 +132,20 @@ impl Model {
             (row.first_moment, row.inertia_at_origin) = (None, None);
             (row.rotor, row.viscous, row.coulomb) = (None, None, None);
         }
-        for (&k, &[xx, xy, xz, yy, yz, zz, mx, my, mz, m, rotor]) in rows.iter().zip(bodies) {
+        d.gravity = Some([Expr::int(0); 3]);
+        let points = Points {
+            arm: d.clone(),
+            rows: rows.to_vec(),
+            numbers: bodies.iter().map(|b| std::array::from_fn(|p| b[ONE + p])).collect(),
+            known: RefCell::default(),
+        };
+        for (&k, &[xx, xy, xz, yy, yz, zz, mx, my, mz, m, rotor, ..]) in rows.iter().zip(bodies) {
             let row = &mut d.rows[k];
             row.mass = Some(m);
             row.rotor = Some(rotor);
             row.first_moment = Some([mx, my, mz]);
             row.inertia_at_origin = Some([xx, xy, xz, yy, yz, zz]);
         }
-        d.gravity = Some([Expr::int(0); 3]);
         let mut formulas = Formulas::new(&d);
         formulas.dynamics.gravity = Vector(gravity);
         let arm = &formulas.dynamics;
@@ -103,10 +169,14 @@ impl Model {
             velocity: velocity_torques(arm, &q, &qd),
             gravity: gravity_torques(arm, &q),
             kinetic: each.iter().map(|arm| kinetic_energy(arm, &q, &qd)).collect(),
+            of_links: each.iter().map(|arm| kinetic_energy(&without_rotors(arm), &q, &qd)).collect(),
             potential: each.iter().map(|arm| potential_energy(arm, &q)).collect(),
             state: State { q: formulas.q, qd: formulas.qd, qdd: formulas.qdd },
             slopes: RefCell::default(),
+            points,
+            is_absolute: false,
         };
+        let model = model.with_rotors(bodies)?;
         Some(match in_coordinates {
             Coordinates::Joints => model,
             Coordinates::Absolute => model.in_absolute_angles(true),
@@ -114,17 +184,69 @@ impl Model {
         })
     }
 
+    /// With what rotors add that turn with the link before them.
+    fn with_rotors(mut self, bodies: &[Numbers]) -> Option<Model> {
+        let n = self.state.q.len();
+        let half = Expr::from(Rational::new(1, 2));
+        let of = |all: &[Symbol]| -> Vec<Expr> { all.iter().map(|s| Expr::from(*s)).collect() };
+        let (q, qd) = (of(&self.state.q), of(&self.state.qd));
+        for (k, body) in bodies.iter().enumerate() {
+            let (coupled, along) = (body[COUPLED], body[ALONG]);
+            if coupled.is_zero() && along.is_zero() {
+                continue;
+            }
+            // A link turns about its axis at q̇ and the rate of the link before.
+            let turning = self.points.turning(k, &self.state)?;
+            let before = turning - qd[k];
+            self.kinetic[k] = self.kinetic[k] + coupled * qd[k] * before + half * along * turning.powi(2);
+            let slopes: Option<Vec<Expr>> = qd.iter().map(|&rate| derivative(turning, rate)).collect();
+            let slopes = slopes?;
+            let own = |i: usize| Expr::int(i64::from(i == k));
+            let entry = |i: usize, j: usize| {
+                let before = |i: usize| slopes[i] - own(i);
+                coupled * (own(i) * before(j) + before(i) * own(j)) + along * slopes[i] * slopes[j]
+            };
+            for i in 0..n {
+                for j in 0..n {
+                    self.inertia[i][j] = self.inertia[i][j] + entry(i, j);
+                    for l in 0..n {
+                        let slope = derivative(entry(i, j), q[l])? - half * derivative(entry(j, l), q[i])?;
+                        self.velocity[i] = self.velocity[i] + slope * qd[j] * qd[l];
+                    }
+                }
+            }
+        }
+        Some(self)
+    }
+
+    /// A formula in joint variables with the angles against the base, q̇ and q̈ likewise.
+    fn back(&self, e: Expr) -> Expr {
+        let State { q, qd, qdd } = &self.state;
+        e.substitute(|s| {
+            [q, qd, qdd].into_iter().find_map(|all| {
+                let k = all.iter().position(|x| *x == s)?;
+                (k > 0).then(|| Expr::from(all[k]) - Expr::from(all[k - 1]))
+            })
+        })
+    }
+
+    /// Where a point of a link is, and the square of its speed.
+    fn point(&self, place: Place, k: usize) -> Option<Moving> {
+        if let Some(known) = self.points.known.borrow().get(&(k, place)) {
+            return *known;
+        }
+        let found = self.points.moving(place, k, &self.state).map(|(at, square)| match self.is_absolute {
+            true => (at.map(|e| self.back(e)), self.back(square)),
+            false => (at, square),
+        });
+        self.points.known.borrow_mut().insert((k, place), found);
+        found
+    }
+
     /// With the angles of all links against the base in place of the joint variables.
     fn in_absolute_angles(self, moves_forces: bool) -> Model {
-        let State { q, qd, qdd } = &self.state;
-        let back = |e: Expr| {
-            e.substitute(|s| {
-                [q, qd, qdd].into_iter().find_map(|all| {
-                    let k = all.iter().position(|x| *x == s)?;
-                    (k > 0).then(|| Expr::from(all[k]) - Expr::from(all[k - 1]))
-                })
-            })
-        };
+        let q = &self.state.q;
+        let back = |e: Expr| self.back(e);
         let n = q.len();
         // q = B φ with ones on the diagonal and −1 below; forces that belong to φ are Bᵀ τ.
         let columns = |row: &[Expr]| -> Vec<Expr> {
@@ -145,9 +267,12 @@ impl Model {
             velocity: rows(all(&self.velocity)),
             gravity: rows(all(&self.gravity)),
             kinetic: all(&self.kinetic),
+            of_links: all(&self.of_links),
             potential: all(&self.potential),
             state: self.state.clone(),
             slopes: RefCell::default(),
+            points: self.points,
+            is_absolute: true,
         }
     }
 
@@ -188,6 +313,7 @@ impl Model {
             Quantity::Gravity(i) => self.gravity[i],
             Quantity::Kinetic(None) => all(&self.kinetic),
             Quantity::Kinetic(Some(k)) => *self.kinetic.get(k)?,
+            Quantity::Link(k) => *self.of_links.get(k)?,
             Quantity::Potential(None) => all(&self.potential),
             Quantity::Potential(Some(k)) => *self.potential.get(k)?,
             Quantity::Lagrangian => all(&self.kinetic) - all(&self.potential),
@@ -196,6 +322,12 @@ impl Model {
             Quantity::MomentumRate(i) => row(i, qdd) + self.velocity[i] + slope_of_kinetic(i)?,
             Quantity::KineticSlope(i) => slope_of_kinetic(i)?,
             Quantity::LagrangianSlope(i) => slope_of_kinetic(i)? - self.gravity[i],
+            Quantity::Coordinate(place, k, axis) => self.point(place, k)?.0[axis],
+            Quantity::Rate(place, k, axis) => points::rate(self.point(place, k)?.0[axis], &self.state)?,
+            Quantity::Slope(place, k, axis, j) => {
+                derivative(self.point(place, k)?.0[axis], Expr::from(*q.get(j)?))?
+            }
+            Quantity::Speed(place, k) => self.point(place, k)?.1,
             Quantity::Christoffel(i, j, k) => self.christoffel(i, j, k)?,
             Quantity::Asada(i, j, k) => {
                 self.slope(i, j, k)? - Expr::from(Rational::new(1, 2)) * self.slope(j, k, i)?
@@ -215,5 +347,59 @@ impl Model {
                 sum
             }
         })
+    }
+}
+
+fn without_rotors(arm: &Dynamics<Expr>) -> Dynamics<Expr> {
+    let mut arm = arm.clone();
+    arm.drives.iter_mut().for_each(|drive| drive.rotor = Expr::int(0));
+    arm
+}
+
+impl Points {
+    /// The arm with one body, in the frame of a link's row.
+    fn with(&self, k: usize, body: &Body<Expr>) -> Option<Dynamics<Expr>> {
+        let mut d = self.arm.clone();
+        let row = &mut d.rows[*self.rows.get(k)?];
+        row.mass = Some(body.mass);
+        row.first_moment = Some(body.first_moment.0);
+        row.inertia_at_origin = Some(body.inertia);
+        Some(Formulas::new(&d).dynamics)
+    }
+
+    /// The derivative by a joint's rate of half the square of the rate at which its link turns about its axis.
+    fn turning(&self, k: usize, state: &State) -> Option<Expr> {
+        let axis = axis(&self.arm, *self.rows.get(k)?);
+        let about = |i: usize, j: usize| axis[i] * axis[j];
+        let inertia = [about(0, 0), about(0, 1), about(0, 2), about(1, 1), about(1, 2), about(2, 2)];
+        let arm = self.with(k, &Body { inertia, ..Body::nothing() })?;
+        let [q, qd] =
+            [&state.q, &state.qd].map(|all| -> Vec<Expr> { all.iter().map(|s| Expr::from(*s)).collect() });
+        derivative(kinetic_energy(&arm, &q, &qd), qd[k])
+    }
+
+    /// Where a point of a link is in the base, and the square of its speed: those of a body of one kilogram there.
+    fn moving(&self, place: Place, k: usize, state: &State) -> Option<Moving> {
+        let [one, x, y, z, xx, xy, xz, yy, yz, zz] = *self.numbers.get(k)?;
+        let body = match place {
+            Place::Centre => Body {
+                mass: one,
+                first_moment: Vector([x, y, z]),
+                inertia: [yy + zz, -xy, -xz, xx + zz, -yz, xx + yy],
+            },
+            Place::End(of) => {
+                let end = *ends(&self.arm, self.rows[k]).get(of)?;
+                Body::about_centre(one, end, [Expr::int(0); 6])
+            }
+        };
+        let mut arm = self.with(k, &body)?;
+        let [q, qd] =
+            [&state.q, &state.qd].map(|all| -> Vec<Expr> { all.iter().map(|s| Expr::from(*s)).collect() });
+        let square = Expr::int(2) * kinetic_energy(&arm, &q, &qd);
+        let at = std::array::from_fn(|axis| {
+            arm.gravity = Vector(std::array::from_fn(|i| Expr::int(if i == axis { -1 } else { 0 })));
+            potential_energy(&arm, &q)
+        });
+        Some((at, square))
     }
 }

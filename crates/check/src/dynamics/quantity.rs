@@ -1,5 +1,6 @@
 //! The quantities of dynamics, and which of them a name may be.
 
+use super::points::Place;
 use crate::names::Name;
 
 /// What a formula of dynamics may be about; joints and bodies are counted from 0.
@@ -25,6 +26,8 @@ pub(super) enum Quantity {
     Gravity(usize),
     /// T, or that of one body.
     Kinetic(Option<usize>),
+    /// T of one body without the rotor that turns it.
+    Link(usize),
     /// V, or that of one body; both but for a constant.
     Potential(Option<usize>),
     /// T − V
@@ -45,6 +48,14 @@ pub(super) enum Quantity {
     Asada(usize, usize, usize),
     /// An entry of C by Christoffel's symbols.
     CoriolisEntry(usize, usize),
+    /// Of a point of a link a coordinate in the base, by its axis.
+    Coordinate(Place, usize, usize),
+    /// Its rate.
+    Rate(Place, usize, usize),
+    /// Its derivative by a joint variable.
+    Slope(Place, usize, usize, usize),
+    /// The square of the speed of a point of a link.
+    Speed(Place, usize),
 }
 
 impl Quantity {

@@ -3,6 +3,7 @@
 
 use super::letters::numbered;
 use super::model::State;
+use super::points::{self, Named, named};
 use super::quantity::{Content, Quantity, STYLES, Style, key, of_scalar, symbol};
 use super::words::{Names, Role, is_grouped, words};
 use crate::lexis::read;
@@ -31,6 +32,8 @@ pub(super) struct Piece {
     /// It may be right, and is never called wrong: nothing names it, as an equation of motion without a force, or its name may be that of a
     /// force at a link.
     pub is_nameless: bool,
+    /// The ratios of gears that it has: it is called wrong only where these are in other formulas that are right, and it is a small slip away.
+    pub gears: Vec<Symbol>,
     /// The letters and the indices of a name with three.
     pub symbol: Option<(String, [usize; 3])>,
     /// The helpers that it uses.
@@ -71,6 +74,8 @@ pub(super) struct Read {
     pub given: BTreeMap<Symbol, Expr>,
     /// What letters with three indices mean, by symmetries that the document prints: `c_{121} = c_{211}`.
     pub styles: BTreeMap<String, Style>,
+    /// Names of points, and the pieces that say what they are.
+    pub defined: BTreeMap<String, (usize, points::Kind)>,
 }
 
 /// The name that a text is, if it is one; of what it is a function, `M(\Theta)`, is left aside.
@@ -118,7 +123,7 @@ pub(super) fn formula_span(side: &Side) -> Option<Range<usize>> {
 pub(super) struct Reader<'a> {
     pub text: &'a str,
     pub statements: &'a [Statement],
-    names: Names,
+    pub(super) names: Names,
     pub state: &'a State,
     pub n: usize,
     pub read: Read,
@@ -130,7 +135,7 @@ pub(super) struct Reader<'a> {
 
 /// Reads statements about an arm.
 pub(super) fn statements(text: &str, statements: &[Statement], names: Names, state: &State) -> Read {
-    let order = in_order(text, statements);
+    let order = in_order(text, statements, &names, state.q.len());
     let read = Read {
         pieces: vec![],
         rows: vec![],
@@ -139,6 +144,7 @@ pub(super) fn statements(text: &str, statements: &[Statement], names: Names, sta
         vocabulary: names.vocabulary.clone(),
         given: BTreeMap::new(),
         styles: BTreeMap::new(),
+        defined: BTreeMap::new(),
     };
     let n = state.q.len();
     let mut reader = Reader {
@@ -160,12 +166,16 @@ pub(super) fn statements(text: &str, statements: &[Statement], names: Names, sta
 }
 
 /// The statements so that names are defined before they are used.
-fn in_order(text: &str, statements: &[Statement]) -> Vec<usize> {
+fn in_order(text: &str, statements: &[Statement], own: &Names, n: usize) -> Vec<usize> {
+    let word_of = |span: Range<usize>| {
+        let point = named(text, &span, n, &own.letters);
+        point.map(|p| p.word).or_else(|| lone_name(text, &span).map(|name| word(&name)))
+    };
     let mut defines: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     let mut own: Vec<Vec<String>> = vec![];
     for (at, statement) in statements.iter().enumerate() {
-        let sides = statement.sides.iter().map(|s| formula_span(s).and_then(|span| lone_name(text, &span)));
-        let names: Vec<Option<String>> = sides.map(|n| n.map(|n| word(&n))).collect();
+        let names: Vec<Option<String>> =
+            statement.sides.iter().map(|s| formula_span(s).and_then(word_of)).collect();
         // Of `c_{221} = h` the first.
         let count = if names.iter().all(Option::is_some) { 1 } else { names.len() };
         let names: Vec<String> = names.into_iter().take(count).flatten().collect();
@@ -234,7 +244,7 @@ impl Reader<'_> {
         content
     }
 
-    fn define(&mut self, name: &str, value: Expr) {
+    pub(super) fn define(&mut self, name: &str, value: Expr) {
         // Powers of powers are no formulas that people print.
         if denavit_symbolic::readable::literals(value) < 20_000 {
             self.read.vocabulary = std::mem::take(&mut self.read.vocabulary).alias(name, value);
@@ -306,8 +316,13 @@ impl Reader<'_> {
         let mut known: Option<Quantity> = None;
         let mut formulas: Vec<(usize, Range<usize>, Syntax)> = vec![];
         let mut errors = vec![];
+        let mut points: Vec<Named> = vec![];
         for (i, side) in statement.sides.iter().enumerate() {
             let Some(span) = formula_span(side) else { continue };
+            if let (true, Some(point)) = (i == points.len(), self.number_of_point(at, &span)) {
+                points.push(point);
+                continue;
+            }
             let name = lone_name(self.text, &span);
             let is_mentioned = |name: &Name| {
                 !of_scalar(name, self.n, Content { accelerations: true, rates: false, gravity: true })
@@ -334,10 +349,13 @@ impl Reader<'_> {
             }
         }
         if formulas.is_empty() {
-            if !errors.is_empty() && (!names.is_empty() || known.is_some()) {
+            if !errors.is_empty() && (!names.is_empty() || known.is_some() || !points.is_empty()) {
                 self.read.unread.push((at, errors));
             }
             return;
+        }
+        if !points.is_empty() {
+            return self.point(at, &points, &formulas);
         }
         let is_number = formulas.iter().all(|f| f.2.value().symbols().is_empty());
         // Zeros are entries and symbols; other numbers are values at a configuration.
@@ -421,6 +439,14 @@ impl Reader<'_> {
                     }
                 }
             }
+            // The energy of a link may be that without its rotor.
+            let of_link = |q: &Quantity| match q {
+                Quantity::Kinetic(Some(k)) if self.has_rotors() => Some(Quantity::Link(*k)),
+                _ => None,
+            };
+            let of_links: Vec<Quantity> = candidates.iter().filter_map(of_link).collect();
+            let has_motor = !of_links.is_empty() && self.has_motors();
+            candidates.extend(of_links);
             if is_number && !is_zero {
                 // Other numbers are values at a configuration.
                 candidates.retain(|q| matches!(q, Quantity::Inertia(..)));
@@ -441,7 +467,7 @@ impl Reader<'_> {
             };
             self.read.pieces.push(Piece {
                 // A force or a torque with a letter may be one at a point of this name.
-                is_nameless: self.has_gear(value)
+                is_nameless: has_motor
                     || is_nameless && !names_quantity
                     || is_link_force && content.accelerations
                     || has_letter && !candidates.iter().all(is_energy),
@@ -472,13 +498,29 @@ impl Reader<'_> {
         }
     }
 
-    /// True for a formula with the ratio of a gear: a rotor may turn with its link, too, which no model here has.
-    pub(super) fn has_gear(&self, e: Expr) -> bool {
-        e.symbols().iter().any(|s| matches!(self.names.roles.get(s), Some(Role::Gear(_))))
+    /// The ratios of gears in a formula.
+    pub(super) fn gears(&self, e: Expr) -> Vec<Symbol> {
+        let is_gear = |s: &Symbol| matches!(self.names.roles.get(s), Some(Role::Gear(_)));
+        e.symbols().into_iter().filter(is_gear).collect()
+    }
+
+    fn has_rotors(&self) -> bool {
+        self.names.roles.values().any(|r| matches!(r, Role::Rotor(_)))
+    }
+
+    /// True where motors have masses, which no link alone has.
+    fn has_motors(&self) -> bool {
+        self.names.roles.values().any(|r| matches!(r, Role::Motor(_)))
     }
 
     /// A formula that is read.
-    fn piece(&self, at: usize, span: &Range<usize>, syntax: &Syntax, candidates: Vec<Quantity>) -> Piece {
+    pub(super) fn piece(
+        &self,
+        at: usize,
+        span: &Range<usize>,
+        syntax: &Syntax,
+        candidates: Vec<Quantity>,
+    ) -> Piece {
         Piece {
             statement: at,
             place: None,
@@ -487,7 +529,8 @@ impl Reader<'_> {
             value: syntax.value(),
             candidates,
             row: None,
-            is_nameless: self.has_gear(syntax.value()),
+            is_nameless: false,
+            gears: self.gears(syntax.value()),
             symbol: None,
             uses: vec![],
         }
@@ -504,60 +547,5 @@ impl Reader<'_> {
             };
             self.read.styles.entry(letters.clone()).or_insert(style);
         }
-    }
-
-    /// The derivative of an energy that a side names: `\frac{d}{dt}\frac{\partial L}{\partial \dot\theta_1}`.
-    fn derivative(&self, span: &Range<usize>) -> Option<Quantity> {
-        let source = self.text.get(span.clone())?;
-        if source.len() > 200 {
-            return None;
-        }
-        let mut plain: String = source.chars().filter(|c| !c.is_whitespace()).collect();
-        for (look, now) in [
-            ("\\partial", "∂"),
-            ("\\mathrm{d}", "d"),
-            ("\\dfrac", "\\frac"),
-            ("\\tfrac", "\\frac"),
-            ("\\left", ""),
-            ("\\right", ""),
-            ("\\bigl", ""),
-            ("\\bigr", ""),
-            ("\\Bigl", ""),
-            ("\\Bigr", ""),
-            ("\\mathcal{L}", "L"),
-            ("\\mathcal{T}", "T"),
-            ("\\mathcal{K}", "K"),
-            ("\\mathcal{U}", "U"),
-            ("\\mathcal{P}", "P"),
-            ("\\,", ""),
-            ("\\;", ""),
-            ("\\!", ""),
-        ] {
-            plain = plain.replace(look, now);
-        }
-        let rate = ["\\frac{d}{dt}", "d/dt"].iter().find_map(|r| plain.strip_prefix(r));
-        let (is_rate, rest) = match rate {
-            Some(rest) => (true, rest),
-            None => (false, plain.as_str()),
-        };
-        let rest = rest.strip_prefix(['(', '[']).and_then(|r| r.strip_suffix([')', ']'])).unwrap_or(rest);
-        let (above, below) = match rest.strip_prefix("\\frac{∂") {
-            Some(rest) => rest.strip_suffix('}')?.split_once("}{∂")?,
-            None => rest.strip_prefix('∂')?.split_once("/∂")?,
-        };
-        let by = read(below, &(0..below.len()), &self.read.vocabulary).ok()?.value().as_symbol()?;
-        let place = |all: &[Symbol]| all.iter().position(|s| *s == by);
-        let is_kinetic = matches!(above, "T" | "K" | "E_c" | "E_k" | "E_{c}" | "E_{k}" | "k");
-        let is_potential = matches!(above, "U" | "V" | "P" | "E_p" | "E_{p}" | "u");
-        Some(match (above, place(&self.state.qd), place(&self.state.q)) {
-            ("L", Some(i), _) if is_rate => Quantity::MomentumRate(i),
-            (_, Some(i), _) if is_rate && is_kinetic => Quantity::MomentumRate(i),
-            ("L", Some(i), _) => Quantity::Momentum(i),
-            (_, Some(i), _) if is_kinetic => Quantity::Momentum(i),
-            ("L", None, Some(i)) if !is_rate => Quantity::LagrangianSlope(i),
-            (_, None, Some(i)) if is_kinetic && !is_rate => Quantity::KineticSlope(i),
-            (_, None, Some(i)) if is_potential && !is_rate => Quantity::Gravity(i),
-            _ => return None,
-        })
     }
 }

@@ -1,7 +1,8 @@
 //! Which statements of a document are about dynamics.
 
-use super::letters::{is_body as is_lettered, letters};
+use super::letters::{Letters, is_body as is_lettered, letters};
 use super::measures::measures;
+use super::points::{Kind, Named, named};
 use super::quantity::{Content, Quantity, is_coriolis, is_inertia, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
@@ -181,11 +182,24 @@ pub(in crate::dynamics) fn taken(
         let families: BTreeSet<(String, usize)> =
             (0..is_taken.len()).filter(|at| is_taken[*at]).filter_map(family).collect();
         let mut is_new = false;
+        // What formulas of dynamics speak of.
+        let used = found.iter().filter(|(at, _)| is_taken[*at]).flat_map(|(_, spoken)| &spoken.words);
+        let used: BTreeSet<&String> = used.collect();
         for (at, spoken) in &found {
             if is_taken[*at] || document.statements[*at].sides.len() < 2 {
                 continue;
             }
             let statement = &document.statements[*at];
+            // `x_2` beside a `y_2` that is used.
+            let is_used = |p: &Named| {
+                let axes = || ["x", "y", "z"].into_iter().filter(|_| p.word.starts_with(['x', 'y', 'z']));
+                used.contains(&p.word) || axes().any(|a| used.contains(&format!("{a}{}", &p.word[1..])))
+            };
+            if point(text, statement).is_some_and(|p| p.is_centre || is_used(&p)) {
+                is_taken[*at] = true;
+                is_new = true;
+                continue;
+            }
             let uses = spoken.words.iter().any(|w| defined.contains(w) && !is_common(w));
             let is_kin = || family(*at).is_some_and(|f| families.contains(&f));
             if (uses || is_kin()) && is_of_dynamics(text, statement, spoken) {
@@ -208,6 +222,15 @@ pub(in crate::dynamics) fn taken(
         !is_here
     });
     taken
+}
+
+/// What the left side of a statement says of a point that a body has; of one without a mark, `x_2`, a number.
+fn point(text: &str, statement: &Statement) -> Option<Named> {
+    let span = formula_span(statement.sides.first()?)?;
+    let named = named(text, &span, JOINTS, &Letters::new())?;
+    let is_grid = statement.sides.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Matrix(_)));
+    let is_vector = named.kind.is_matrix() || is_grid && named.kind == Kind::Speed;
+    (is_vector == is_grid && (named.is_centre || !is_grid)).then_some(named)
 }
 
 /// Names of kinematics, which say nothing of dynamics.

@@ -1,6 +1,7 @@
 //! Formulas that are judged together: rows of C, and what uses a helper that is wrong.
 
 use super::author::Author;
+use super::points;
 use super::quantity::Quantity;
 use super::repair::Repairer;
 use super::statements::Piece;
@@ -103,6 +104,24 @@ impl Verdicts<'_> {
         }
     }
 
+    /// The wrong number of a point on which a formula rests that is right with what that should be; and what is right.
+    pub(super) fn rests_on(&self, piece: &Piece, said: &[Option<Said>]) -> Option<(usize, Expr)> {
+        let read = &self.attempt.read;
+        for (name, &(by, kind)) in &read.defined {
+            let Some(Said::Wrong { wanted, .. }) = &said[by] else { continue };
+            let names = points::with(read.vocabulary.clone(), kind, name, *wanted, &self.model.state);
+            let Ok(syntax) = crate::lexis::read(self.text, &piece.span, &names) else { continue };
+            for &quantity in &piece.candidates {
+                let truth = self.model.value(quantity)?;
+                let (truth, found) = self.compared(syntax.value(), truth, quantity);
+                if found.is_equal() {
+                    return Some((by, truth));
+                }
+            }
+        }
+        None
+    }
+
     /// Blames a helper if one change of it makes all right that is wrong and uses it.
     pub(super) fn helper(
         &self,
@@ -173,6 +192,7 @@ impl Verdicts<'_> {
             candidates: vec![],
             row: None,
             is_nameless: false,
+            gears: vec![],
             symbol: None,
             uses: vec![],
         };

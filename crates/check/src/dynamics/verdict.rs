@@ -165,7 +165,7 @@ impl Verdicts<'_> {
     }
 
     /// Whether a formula is what is wanted; energies may differ by a constant, which is added.
-    fn compared(&self, value: Expr, wanted: Expr, quantity: Quantity) -> (Expr, Equality) {
+    pub(super) fn compared(&self, value: Expr, wanted: Expr, quantity: Quantity) -> (Expr, Equality) {
         let wanted = match quantity.is_up_to_constant() {
             true => wanted + self.at_rest(value - wanted),
             false => wanted,
@@ -231,6 +231,7 @@ impl Verdicts<'_> {
             return Said::Open(Unproved::OpenReading);
         }
         if piece.is_nameless
+            || self.has_lone_gear(k)
             || self.has_foreign(piece)
             || self.has_damping(piece)
             || self.is_special(piece)
@@ -247,6 +248,9 @@ impl Verdicts<'_> {
                 return Said::Carried { by: By::Piece(by), wanted: truth };
             }
         }
+        if let Some((by, wanted)) = self.rests_on(piece, said) {
+            return Said::Carried { by: By::Piece(by), wanted };
+        }
         let is_pinned = self.is_pinned(test) && self.is_supported(test);
         let mut best: Option<(u32, Expr, Vec<Slip>)> = None;
         for &quantity in &piece.candidates {
@@ -261,7 +265,9 @@ impl Verdicts<'_> {
             }
         }
         // Printed right elsewhere, or behind words that say so, it may be meant for a special case, unless it is a small slip away.
-        let is_case = self.is_right_elsewhere(k, test) || told::is_special_case(&self.words_around(piece));
+        let is_case = !piece.gears.is_empty()
+            || self.is_right_elsewhere(k, test)
+            || told::is_special_case(&self.words_around(piece));
         match best {
             Some((_, _, slips)) if is_case && !slips.iter().all(is_small) => {
                 Said::Open(Unproved::OpenReading)
@@ -277,6 +283,16 @@ impl Verdicts<'_> {
             },
             None => Said::Open(Unproved::OpenReading),
         }
+    }
+
+    /// True for a formula with the ratio of a gear that no other has which is right: what it is the ratio of is open.
+    fn has_lone_gear(&self, k: usize) -> bool {
+        let (read, right) = (&self.attempt.read, &self.attempt.vote.best[0].right);
+        let others = || {
+            let all = read.pieces.iter().zip(&self.attempt.test_of_piece).enumerate();
+            all.filter(move |(i, (_, test))| *i != k && test.is_some_and(|t| right[t])).map(|(_, (p, _))| p)
+        };
+        read.pieces[k].gears.iter().any(|gear| !others().any(|p| p.gears.contains(gear)))
     }
 
     /// The words before a formula, on its line and up to the formula on a line before it, and behind it on its line.

@@ -242,7 +242,7 @@ impl Table {
         for k in 0..n {
             for p in 0..NUMBERS {
                 plain[k][p] = with(k, p, None)?;
-                if feels_gravity && p >= 6 {
+                if feels_gravity && (6..10).contains(&p) {
                     for (axis, of) in by_gravity.iter_mut().enumerate() {
                         of[k][p] = with(k, p, Some(axis))? - plain[k][p];
                     }
@@ -336,14 +336,14 @@ impl<'a> Voter<'a> {
                 (0..n).filter(feels).collect()
             })
             .collect();
-        let chosen: Vec<Vec<(usize, Values)>> = (0..n)
-            .map(|k| {
-                let felt = (0..NUMBERS).filter(|&p| (0..tables.len()).any(|t| is_felt(t, k, p)));
-                candidates.distinct(k, &felt.collect::<Vec<_>>())
-            })
-            .collect();
+        let felt = |k: usize| -> Vec<usize> {
+            (0..NUMBERS).filter(|&p| (0..tables.len()).any(|t| is_felt(t, k, p))).collect()
+        };
+        let felt: Vec<Vec<usize>> = (0..n).map(felt).collect();
+        let chosen: Vec<Vec<(usize, Values)>> = (0..n).map(|k| candidates.distinct(k, &felt[k])).collect();
         let most = chosen.iter().map(Vec::len).max().unwrap_or(1);
-        let beam = self.beam(slots.len() * most * n * gravities.len() * NUMBERS * POINTS);
+        let count = felt.iter().map(Vec::len).max().unwrap_or(1);
+        let beam = self.beam(slots.len() * most * n * gravities.len() * count * POINTS);
         if beam == 0 {
             return None;
         }
@@ -381,7 +381,7 @@ impl<'a> Voter<'a> {
             };
             let mut states = vec![first];
             for k in (0..n).rev() {
-                let products = states.len() * chosen[k].len() * slots.len() * NUMBERS * POINTS;
+                let products = states.len() * chosen[k].len() * slots.len() * felt[k].len() * POINTS;
                 self.bounds.work.set(self.bounds.work.get().saturating_sub(products));
                 let mut next: Vec<Chosen> = vec![];
                 for from in &states {
@@ -391,7 +391,7 @@ impl<'a> Voter<'a> {
                             for at in 0..POINTS {
                                 let by = &factors[slot.2][at][k];
                                 sums[s * POINTS + at] +=
-                                    by.iter().zip(&values[at]).map(|(a, b)| a * b).sum::<f64>();
+                                    felt[k].iter().map(|&p| by[p] * values[at][p]).sum::<f64>();
                             }
                         }
                         let (mut right, mut score) = (from.right.clone(), from.score);

@@ -23,6 +23,8 @@ pub(super) enum Role {
     Rotor(Option<usize>),
     /// The ratio of the gear before a rotor.
     Gear(Option<usize>),
+    /// The mass of the motor on a joint.
+    Motor(usize),
     /// The mass that the hand carries.
     Payload,
     Gravity,
@@ -151,7 +153,7 @@ fn script(chars: &[char], at: &mut usize) -> String {
     }
 }
 
-fn without_looks(inner: &str) -> String {
+pub(super) fn without_looks(inner: &str) -> String {
     ["\\mathrm", "\\text", "\\rm", "\\ell", "\\,"]
         .iter()
         .fold(inner.to_string(), |s, look| s.replace(look, if *look == "\\ell" { "l" } else { "" }))
@@ -190,6 +192,7 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
     }
     match letters {
         "m" | "M" | "ml" | "mG" => return Some(Role::Mass(index)),
+        "mm" | "mM" | "mmot" | "mr" if index.is_some() => return index.map(Role::Motor),
         "N" | "n" | "kr" | "Kr" | "kg" | "Ng" | "ng" | "η" => return Some(Role::Gear(index)),
         "g" | "g0" if index.is_none() => return Some(Role::Gravity),
         _ => {}

@@ -107,6 +107,24 @@ fn what_follows_from_a_slip_is_carried() {
 }
 
 #[test]
+fn derivations_by_lagrange_are_read_step_by_step() {
+    all_right(document!("lagrange_point_masses.md"), 14);
+    all_right(document!("centres_derived.md"), 14);
+    all_right(document!("pendulo_doble.md"), 7);
+    all_right(document!("elevation.md"), 9);
+    all_right(document!("telescope.md"), 10);
+    all_right(document!("motors.md"), 10);
+    // A square of a speed with a slip, and the energy in which it is.
+    wrong(
+        document!("lagrange_factor.md"),
+        &[("v_2^2", Standing::Wrong, "", "2"), ("k_2", Standing::Carried, "", "")],
+    );
+    wrong(document!("centres_derived_sign.md"), &[("y_{c2}", Standing::Wrong, "-", "+")]);
+    wrong(document!("elevation_sine.md"), &[("J_{v_{c2}}", Standing::Wrong, "c_2", "s_2")]);
+    wrong(document!("motors_exponent.md"), &[("b_{12}", Standing::Wrong, "^2", "")]);
+}
+
+#[test]
 fn what_nothing_pins_down_is_not_judged() {
     let all = checked(document!("open_question.md"));
     let open = |c: &denavit_check::Claim| {
@@ -227,7 +245,7 @@ fn gears_groupings_and_numbers_are_read() {
         "{:?}",
         all.claims
     );
-    // A ratio that is not squared may belong to a rotor that turns with its link, a number may be rounded: neither is called right or wrong.
+    // No other formula has the ratio, a number may be rounded: neither is called right or wrong.
     for (document, from, to, name) in [
         (geared, "N_1^2 J_{m1}", "N_1 J_{m1}", "M_{11}"),
         (numbers, "0.42 +", "0.43 +", "M_{12}"),

@@ -87,14 +87,37 @@ class Derivations:
             jacobian_formulas,
         )
 
-    def dynamics_explain(self, format: str = "text") -> Derivation:
+    def dynamics_explain(
+        self,
+        format: str = "text",
+        *,
+        keep: Union[str, Sequence[str]] = (),
+        drop: Union[str, Sequence[str]] = (),
+    ) -> Derivation:
         """Base parameters and torques as formulas, step by step; symbols of Khalil and Dombre's names where the robot says
         nothing of masses. Formats as in `derive`.
+
+        Several parameters of the links may stand for what is grouped with them: ``keep`` names those that are to, such as
+        ``"YY2"`` or ``["YY2", "M4"]``, in place of those that the rule of Gautier and Khalil keeps, ``drop`` those that are not
+        to. The torques are the same.
+
+        >>> from denavit import Robot
+        >>> robot = Robot("planar-2r")
+        >>> "ZZR1" in robot.dynamics_explain(), "MR2" in robot.dynamics_explain(keep="M2")
+        (True, True)
+
+        Raises `UsageError` with the reason if the parameters that are named cannot be chosen.
         """
         from ._derivations import Derivation, dynamic_formulas
 
         core = self._core
-        return Derivation._of(format, core.dynamics_explain, core.dynamics_nodes, dynamic_formulas)
+        kept, dropped = ([names] if isinstance(names, str) else list(names) for names in (keep, drop))
+        return Derivation._of(
+            format,
+            lambda format: core.dynamics_explain(format, kept, dropped),
+            lambda: core.dynamics_nodes(kept, dropped),
+            dynamic_formulas,
+        )
 
     def check(self, document: PathLike, *, name: str = "document.md") -> Checked:
         """The claims of a document about this robot, each with its verdict: see `denavit.check`."""

@@ -525,5 +525,7 @@ fn dynamic(what: Dynamic) -> &'static str {
         Dynamic::Lagrangian => "the Lagrangian",
         Dynamic::Energy => "the energy",
         Dynamic::Derivative => "a derivative of an energy",
+        Dynamic::Place => "a point of a link",
+        Dynamic::Motion => "the motion of a point of a link",
     }
 }

@@ -588,5 +588,7 @@ fn dynamic(what: Dynamic) -> &'static str {
         Dynamic::Lagrangian => "le lagrangien",
         Dynamic::Energy => "l'énergie",
         Dynamic::Derivative => "une dérivée d'une énergie",
+        Dynamic::Place => "un point d'un corps",
+        Dynamic::Motion => "le mouvement d'un point d'un corps",
     }
 }
