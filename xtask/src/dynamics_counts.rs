@@ -1,4 +1,4 @@
-//! docs/dynamics-counts.md: what the torques of every arm of the catalogue cost, beside SYMORO's and published figures.
+//! docs/dynamics-counts.md: what the torques of every arm of the catalogue cost, beside what OpenSYMORO derives and published figures.
 
 use crate::{denavit, path, robots, scratch};
 use anyhow::{Context, Result, bail};
@@ -7,10 +7,12 @@ use std::fmt::Write;
 use std::fs;
 
 const PAGE: &str = "docs/dynamics-counts.md";
+/// What OpenSYMORO derives for the catalogue's arms.
+const SYMORO: &str = "crates/robot/tests/peers/symoro_counts.json";
 /// The least number of joints for which the general formula is meant.
 const GENERAL: u64 = 3;
 
-/// Figures of others for an arm of the catalogue.
+/// Figures in print for an arm of the catalogue.
 const OTHERS: &[(&str, &str)] = &[(
     "staubli-rx90",
     "253 / 238 with rotors (published for SYMORO); its stored file 342 / 300 with all parameters, rotors, friction and a wrench, \
@@ -32,8 +34,12 @@ large or have divisors, compared *at random states*, exactly modulo a prime or i
 (1987), the recursion, customised, with base parameters, before anything is known of the arm. Published counts of the Panda take its
 two equal lengths for one: so does its second line.
 
-| arm | joints | base parameters | here | equal | general | others |
-|---|--:|--:|--:|---|--:|---|
+*SYMORO* is what OpenSYMORO derives for the same table in its own base parameters, without rotors and friction, counted by the same rule
+([`make_symoro_counts.py`](../crates/robot/tests/peers/make_symoro_counts.py)); a – stands where its grouping stops with an error, or its
+format has no words for the arm. *Published* are figures that somebody printed for the arm itself; of most arms none are known.
+
+| arm | joints | base parameters | here | equal | SYMORO | general | published |
+|---|--:|--:|--:|---|--:|--:|---|
 ";
 
 /// Writes the page, or with `check` compares it.
@@ -42,11 +48,13 @@ two equal lengths for one: so does its second line.
 /// If an arm's torques are not Lagrange's, or with `check` if the page is not up to date.
 pub fn run(check: bool) -> Result<()> {
     let mut text = INTRODUCTION.to_string();
+    let symoro: Value = serde_json::from_str(&fs::read_to_string(path(SYMORO))?)?;
+    let symoro = &symoro["robots"];
     for name in robots()? {
-        text += &row(&name, &name)?;
+        text += &row(&name, &name, &symoro[&name])?;
         for (_, letter, other) in SAME.iter().filter(|s| s.0 == name) {
             let file = with_one_letter(&name, letter, other)?;
-            text += &row(&format!("{name}, {letter} = {}", other.replace('-', "−")), &file)?;
+            text += &row(&format!("{name}, {letter} = {}", other.replace('-', "−")), &file, &Value::Null)?;
         }
     }
     text += "\nRenew with `cargo xtask counts dynamics`.\n";
@@ -73,12 +81,13 @@ fn with_one_letter(name: &str, letter: &str, other: &str) -> Result<String> {
     Ok(file.to_string_lossy().into_owned())
 }
 
-fn row(name: &str, robot: &str) -> Result<String> {
+fn row(name: &str, robot: &str, symoro: &Value) -> Result<String> {
     let printed = denavit(["dynamics", robot, "--symbolic", "--json"])?;
     let model: Value = serde_json::from_str(&printed).with_context(|| name.to_string())?;
     let number = |v: &Value| v.as_u64().with_context(|| format!("{name}: no number in {v}"));
     let count = &model["count"];
-    let [mul, add] = [number(&count["multiplications"])?, number(&count["additions"])?];
+    let here = [number(&count["multiplications"])?, number(&count["additions"])?];
+    let [mul, add] = here;
     let steps = model["steps"].as_array().with_context(|| format!("{name}: no steps"))?;
     let joints = steps.iter().filter(|s| s["output"] == true).count() as u64;
     let base =
@@ -92,8 +101,21 @@ fn row(name: &str, robot: &str) -> Result<String> {
         n if n >= GENERAL => format!("{} / {}", 92 * n - 127, 81 * n - 117),
         _ => String::new(),
     };
-    let others = OTHERS.iter().find(|o| o.0 == name).map_or("", |o| o.1);
+    let symoro = match symoro["base"].as_array().map(Vec::as_slice) {
+        Some([mul, add]) => {
+            let theirs = [number(mul)?, number(add)?];
+            if theirs[0] < here[0] || theirs[1] < here[1] {
+                bail!("{name}: SYMORO has {theirs:?}, which is less than {here:?} in one");
+            }
+            format!("{} / {}", theirs[0], theirs[1])
+        }
+        _ => "–".to_string(),
+    };
+    let others = OTHERS.iter().find(|o| o.0 == name).map_or("none known", |o| o.1);
     let mut line = String::new();
-    let _ = writeln!(line, "| {name} | {joints} | {base} | {mul} / {add} | {equal} | {general} | {others} |");
+    let _ = writeln!(
+        line,
+        "| {name} | {joints} | {base} | {mul} / {add} | {equal} | {symoro} | {general} | {others} |"
+    );
     Ok(line)
 }

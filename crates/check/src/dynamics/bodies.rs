@@ -19,7 +19,7 @@ struct Place {
 }
 
 /// The most bodies of a link that are tried.
-const MAX_BODIES: usize = 600;
+const MAX_BODIES: usize = 1_000;
 /// The most of them that are worked out: many are the same.
 const MAX_TRIED: usize = 6_000;
 
@@ -215,7 +215,18 @@ pub(super) fn bodies(
     };
     let has_own = roles.values().any(|r| matches!(r, Role::Mass(Some(_))));
     let inertias: Vec<Expr> = inertias.into_iter().filter(|e| !(has_own && is_general(e))).collect();
-    let own_lengths = of(&|r| r == Role::Length(Some(k)));
+    let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
+    // A rotor behind a gear, whose ratio may be Spong's `r_1` beside other lengths.
+    let gears = prefer(of(&|r| r == Role::Gear(Some(k))), of(&|r| r == Role::Gear(None)));
+    let own_lengths: Vec<Symbol> =
+        roles.iter().filter(|(_, r)| **r == Role::Length(Some(k))).map(|(s, _)| *s).collect();
+    let is_ratio = |s: &Symbol| {
+        let is_alone = own_lengths.iter().all(|l| l.name().starts_with('r'));
+        s.name().starts_with('r') && gears.is_empty() && !rotors.is_empty() && !is_alone
+    };
+    let (ratios, own_lengths): (Vec<Symbol>, Vec<Symbol>) = own_lengths.iter().partition(|s| is_ratio(s));
+    let meant = |all: Vec<Symbol>| -> Vec<Expr> { all.into_iter().map(meaning).collect() };
+    let (gears, own_lengths) = (prefer(gears.clone(), meant(ratios)), meant(own_lengths));
     let lengths = prefer(own_lengths, of(&|r| r == Role::Length(None)));
     let axes: [Option<Expr>; 3] = [0, 1, 2].map(|axis| of(&|r| r == Role::About(k, axis)).first().copied());
     let has_axes = axes.iter().any(Option::is_some);
@@ -224,11 +235,6 @@ pub(super) fn bodies(
     }
     let points = points(d, row);
     let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
-    let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
-    // A rotor behind a gear, whose ratio may be Spong's `r_1`.
-    let gears = prefer(of(&|r| r == Role::Gear(Some(k))), of(&|r| r == Role::Gear(None)));
-    let is_ratio = |(s, r): &(&Symbol, &Role)| **r == Role::Length(Some(k)) && s.name().starts_with('r');
-    let gears = prefer(gears, roles.iter().filter(is_ratio).map(|(s, _)| meaning(*s)).collect());
     let is_turning = d.rows[row].variable.is_some_and(|v| v.kind == JointKind::Revolute);
     let mut turned: Vec<Rotor> = vec![];
     for (&rotor, &n) in rotors.iter().flat_map(|r| gears.iter().map(move |n| (r, n))) {
@@ -243,7 +249,9 @@ pub(super) fn bodies(
             });
         }
     }
-    turned.extend(rotors.iter().map(|r| Rotor::felt(*r)));
+    if gears.is_empty() {
+        turned.extend(rotors.iter().map(|r| Rotor::felt(*r)));
+    }
     // The mass of a motor on the axis of a joint that turns moves with either link.
     let motors = if is_turning { of(&|r| r == Role::Motor(k)) } else { vec![] };
     // Where none is named so, `J` beside `I`, or the only inertia that there is, may be that of a rotor.

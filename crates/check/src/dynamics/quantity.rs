@@ -158,6 +158,8 @@ pub(super) fn symbol(name: &Name, n: usize) -> Option<(String, [usize; 3])> {
 pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity> {
     let (letters, digits) = key(name);
     let is = |all: &[&str]| all.contains(&letters.as_str());
+    // `T_{\ell_1}`, that of a link.
+    let is_energy = |all: &[&str]| is(all) || letters.strip_suffix('l').is_some_and(|l| all.contains(&l));
     let mut found = vec![];
     let index = indices(&digits, n);
     let index = match index {
@@ -185,10 +187,10 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
             if !accelerations && !rates && gravity && is(&GRAVITIES) {
                 found.push(Quantity::Gravity(i));
             }
-            if !accelerations && rates && !gravity && is(&KINETIC) {
+            if !accelerations && rates && !gravity && is_energy(&KINETIC) {
                 found.push(Quantity::Kinetic(Some(i)));
             }
-            if !accelerations && !rates && gravity && is(&POTENTIAL) {
+            if !accelerations && !rates && gravity && is_energy(&POTENTIAL) {
                 found.push(Quantity::Potential(Some(i)));
             }
             if n == 1 && !accelerations && !rates && !gravity && is(&INERTIAS) {

@@ -342,8 +342,14 @@ impl<'a> Voter<'a> {
         let felt: Vec<Vec<usize>> = (0..n).map(felt).collect();
         let chosen: Vec<Vec<(usize, Values)>> = (0..n).map(|k| candidates.distinct(k, &felt[k])).collect();
         let most = chosen.iter().map(Vec::len).max().unwrap_or(1);
-        let count = felt.iter().map(Vec::len).max().unwrap_or(1);
-        let beam = self.beam(slots.len() * most * n * gravities.len() * count * POINTS);
+        // Of each link the numbers that each slot feels, and what adding them takes.
+        let felt_by = |k: usize| -> Vec<Vec<usize>> {
+            slots.iter().map(|s| (0..NUMBERS).filter(|&p| is_felt(s.2, k, p)).collect()).collect()
+        };
+        let felt_by: Vec<Vec<Vec<usize>>> = (0..n).map(felt_by).collect();
+        let costs: Vec<usize> =
+            felt_by.iter().map(|all| slots.len() + all.iter().map(Vec::len).sum::<usize>()).collect();
+        let beam = self.beam(costs.iter().sum::<usize>() * most * gravities.len() * POINTS);
         if beam == 0 {
             return None;
         }
@@ -381,7 +387,7 @@ impl<'a> Voter<'a> {
             };
             let mut states = vec![first];
             for k in (0..n).rev() {
-                let products = states.len() * chosen[k].len() * slots.len() * felt[k].len() * POINTS;
+                let products = states.len() * chosen[k].len() * costs[k] * POINTS;
                 self.bounds.work.set(self.bounds.work.get().saturating_sub(products));
                 let mut next: Vec<Chosen> = vec![];
                 for from in &states {
@@ -391,7 +397,7 @@ impl<'a> Voter<'a> {
                             for at in 0..POINTS {
                                 let by = &factors[slot.2][at][k];
                                 sums[s * POINTS + at] +=
-                                    felt[k].iter().map(|&p| by[p] * values[at][p]).sum::<f64>();
+                                    felt_by[k][s].iter().map(|&p| by[p] * values[at][p]).sum::<f64>();
                             }
                         }
                         let (mut right, mut score) = (from.right.clone(), from.score);

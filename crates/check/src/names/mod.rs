@@ -471,6 +471,7 @@ impl Reader<'_> {
                                 Some(letter) => out.push(letter),
                                 None if LOOKS.contains(&name.as_str()) && depth > 0 => {}
                                 None if name == "top" => out.push('T'),
+                                None if name == "ell" => out.push('l'),
                                 None if BLANK.contains(&name.as_str()) => {}
                                 None => return None,
                             }

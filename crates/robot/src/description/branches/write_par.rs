@@ -108,10 +108,12 @@ fn variable_name(tree: &RowTree, j: usize) -> String {
 fn text(e: Expr, is_angle: bool) -> String {
     let form = Angle::of(e);
     let names = Vocabulary::new();
+    // SYMORO has no word for degrees.
+    let print = |e: Expr| print(e, &names, Style::Ascii).replace(" deg", "*pi/180");
     if !is_angle || form.radians.is_zero() {
         return match e.as_number() {
             Some(x) => decimal(&x),
-            None => print(e, &names, Style::Ascii),
+            None => print(e),
         };
     }
     let mut number = decimal(&form.radians);
@@ -123,8 +125,8 @@ fn text(e: Expr, is_angle: bool) -> String {
     let rest = Angle { radians: Rational::ZERO, ..form.clone() }.to_expr();
     match (rest.is_zero(), number.strip_prefix('-')) {
         (true, _) => number,
-        (false, Some(size)) => format!("{} - {size}", print(rest, &names, Style::Ascii)),
-        (false, None) => format!("{} + {number}", print(rest, &names, Style::Ascii)),
+        (false, Some(size)) => format!("{} - {size}", print(rest)),
+        (false, None) => format!("{} + {number}", print(rest)),
     }
 }
 
