@@ -165,7 +165,9 @@ def test_batches_of_any_shape():
 
 def test_points_will_do_for_positions():
     robot = Robot("articulated-3r")
-    poses = robot.fk([[0.1, 0.2, 0.3], [0.4, -0.3, 0.8], [1.0, 0.1, -0.4], [0.2, 0.3, 0.9]]).reshape(2, 2, 4, 4)
+    poses = robot.fk([[0.1, 0.2, 0.3], [0.4, -0.3, 0.8], [1.0, 0.1, -0.4], [0.2, 0.3, 0.9]]).reshape(
+        2, 2, 4, 4
+    )
     by_points = robot.ik_batch(poses[..., :3, 3], goal="position")
     assert np.array_equal(by_points.solutions, robot.ik_batch(poses, goal="position").solutions)
     one = robot.ik(poses[1, 0][:3, 3], goal="position")

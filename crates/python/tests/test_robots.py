@@ -116,7 +116,9 @@ def test_long_derivations_hear_signals():
     wait = "import os, signal, threading, time; from denavit import Robot; robot = Robot('franka-panda'); "
     send = "threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start(); begun = time.time()\n"
     work = "try:\n    for k in range(40): robot.dynamics_explain()\nexcept KeyboardInterrupt: print(time.time() - begun)"
-    run = subprocess.run([sys.executable, "-c", wait + send + work], capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", wait + send + work], capture_output=True, text=True, check=True
+    )
     assert "PanicException" not in run.stderr
     assert 0.2 < float(run.stdout) < 5.0
 

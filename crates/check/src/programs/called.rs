@@ -116,6 +116,12 @@ pub(super) fn gives_another(function: &Reading) -> bool {
     !is_jacobian && words(&function.name).any(|w| OTHERS.iter().any(|other| w.starts_with(other)))
 }
 
+/// True if a matrix or its function is called an inverse: `J_inv`, `Ji`, `def jac_inv(…)`.
+pub(super) fn says_inverse(function: &Reading, shown: &str) -> bool {
+    let names = [function.name.to_lowercase(), shown.to_lowercase()];
+    names.iter().any(|n| n.contains("inv")) || matches!(shown, "Ji" | "iJ" | "J_i")
+}
+
 /// True for a function whose name says that it gives a velocity.
 pub(super) fn is_velocity(function: &Reading) -> bool {
     const WORDS: [&str; 8] = ["vel", "speed", "rate", "twist", "geschw", "vitesse", "veloc", "snelh"];

@@ -25,7 +25,7 @@ use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use called::{
     as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
-    lacking, names_in, without,
+    lacking, names_in, says_inverse, without,
 };
 use defined::{defined, unsaid};
 use denavit::forward::Reference;
@@ -435,7 +435,7 @@ impl Program<'_> {
         }
         let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {
-            (n, m) if is_jacobian && m == joints && n <= 6 => {
+            (n, m) if is_jacobian && (m == joints || m == taken.len() && m > 1) && n <= 6 => {
                 let value = |c: &Cell| Some(in_radians(c.value));
                 let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
                 let part = match shown {
@@ -443,17 +443,21 @@ impl Program<'_> {
                     "Jw" | "J_w" | "Jo" | "J_o" => Part::Angular,
                     _ => Part::Any,
                 };
-                let told = Told { part, ..Told::default() };
-                let (matrix, jacobian) =
-                    self.subject.nearest_jacobian(&values, &told, &Configuration::default())?;
-                (matrix, Meaning::Jacobian(jacobian))
-            }
-            // That of the joints which the function takes.
-            (n, m) if is_jacobian && m == taken.len() && m > 1 && n <= 6 => {
-                let value = |c: &Cell| Some(in_radians(c.value));
-                let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
-                let (matrix, jacobian) = self.subject.jacobian_of_joints(&values, &taken, Part::Any)?;
-                (matrix, Meaning::Jacobian(jacobian))
+                let nearest = |values: &Matrix| match m == joints {
+                    true => {
+                        let told = Told { part, ..Told::default() };
+                        self.subject.nearest_jacobian(values, &told, &Configuration::default())
+                    }
+                    // That of the joints which the function takes.
+                    false => self.subject.jacobian_of_joints(values, &taken, Part::Any),
+                };
+                match says_inverse(function, shown) {
+                    false => nearest(&values).map(|(matrix, j)| (matrix, Meaning::Jacobian(j)))?,
+                    true => {
+                        let (matrix, jacobian) = nearest(&values.inverse()?)?;
+                        (matrix.inverse()?, Meaning::Inverse(Meaning::Jacobian(jacobian).into()))
+                    }
+                }
             }
             // A part of a Jacobian is no pose.
             _ if is_jacobian => return None,

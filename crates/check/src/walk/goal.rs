@@ -170,7 +170,11 @@ impl Walk<'_> {
         let begins = before.rsplit('\n').next().unwrap_or_default();
         let begins = begins.trim_start_matches(|c: char| !c.is_alphabetic()).to_lowercase();
         let is_given = GIVEN.iter().any(|word| begins.starts_with(word));
-        if is_given && line.trim_end().ends_with(':') && line.len() < FAR {
+        // `For θ1 = 30°, θ2 = 45° they say x = 0.4`.
+        let sentence = begins.rsplit(". ").next().unwrap_or_default();
+        let leads = GIVEN.iter().any(|word| sentence.starts_with(word));
+        let is_told = leads && says_a_place(line.split(". ").next().unwrap_or_default());
+        if is_given && line.trim_end().ends_with(':') && line.len() < FAR || is_told {
             self.seek(false);
             return false;
         }
@@ -533,4 +537,15 @@ impl Walk<'_> {
         self.taken.push(statement.span.clone());
         true
     }
+}
+
+/// True if a text says a coordinate of the hand: `x = 0.4`, `p_y=0.1`.
+fn says_a_place(text: &str) -> bool {
+    text.match_indices('=').any(|(at, _)| {
+        let before = text[..at].trim_end_matches(|c: char| c.is_whitespace() || matches!(c, '$' | '&' | '}'));
+        let word = before.rsplit(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default();
+        let axis = word.to_lowercase();
+        let axis = axis.strip_prefix('p').map_or(axis.as_str(), |rest| rest.trim_start_matches('_'));
+        matches!(axis, "x" | "y" | "z")
+    })
 }

@@ -171,7 +171,9 @@ class Answers:
             return [self[k] for k in range(*i.indices(len(self)))]
         if isinstance(i, tuple):
             if len(i) != self.counts.ndim:
-                raise IndexError(f"answer {i} of poses {self.counts.shape}: {self.counts.ndim} indices are needed")
+                raise IndexError(
+                    f"answer {i} of poses {self.counts.shape}: {self.counts.ndim} indices are needed"
+                )
             numbers = np.arange(len(self)).reshape(self.counts.shape)
             return self[int(numbers[i])]
         k = i + len(self) if i < 0 else i

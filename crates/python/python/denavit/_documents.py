@@ -44,7 +44,9 @@ class Claim:
         if self.verdict in ("wrong", "carried"):
             right = self.correct
             if isinstance(right, list):
-                right = "; ".join(", ".join(map(str, row)) if isinstance(row, list) else str(row) for row in right)
+                right = "; ".join(
+                    ", ".join(map(str, row)) if isinstance(row, list) else str(row) for row in right
+                )
             parts += [f"right is {right}"] if right else []
             parts += [self.slip] if self.slip else []
         return "; ".join(parts)
@@ -88,7 +90,10 @@ class Checked:
         """A line for each claim, and how many there are of each verdict."""
         tally = ", ".join(f"{count} {verdict}" for verdict, count in self.tally.items() if count)
         lines = [str(claim) for claim in self.claims]
-        lines += [f"line {skipped['at']['line']}: not judged: {skipped['text']}" for skipped in self.data.get("unjudged", [])]
+        lines += [
+            f"line {skipped['at']['line']}: not judged: {skipped['text']}"
+            for skipped in self.data.get("unjudged", [])
+        ]
         return "\n".join([*lines, tally or "no claims"])
 
 

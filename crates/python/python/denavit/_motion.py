@@ -132,7 +132,9 @@ class Motions:
         >>> bool(abs(motion.poses[-1] - there).max() < 1e-5)
         True
         """
-        pieces: list[Any] = [along] if isinstance(along, str) or _is_point(along) else list(cast(Sequence[Any], along))
+        pieces: list[Any] = (
+            [along] if isinstance(along, str) or _is_point(along) else list(cast(Sequence[Any], along))
+        )
         entries = [p if isinstance(p, str) else _point(p) for p in pieces]
         manner = self._manner(velocity, acceleration, jerk, torque, duration, dt)
         manner.update(max_deviation=max_deviation, speed=speed, alternatives=alternatives)
