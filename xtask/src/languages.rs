@@ -33,6 +33,8 @@ const MOVING: &[(&str, &[&str])] = &[
     ("crates/generate/tests/robots/moving.toml", &["--wrench"]),
     ("planar-2r", &["--masses", "links", "--wrench", "--payload"]),
 ];
+/// Of these files with IKFast's interface: by formulas, by elimination, with a joint that is given, with one angle.
+const INTERFACES: &[&str] = &["ur5", "oblique-6r", "franka-panda", "scara"];
 /// What is generated of the others.
 const KINEMATIC: &str = "fk,frames,jacobian,ik";
 /// What is generated of those that move.
@@ -138,6 +140,15 @@ impl Tools {
         }
         if FIXED.contains(&robot) {
             c(&generate("c", &["--fixed"])?, stem)?;
+        }
+        if INTERFACES.contains(&robot) {
+            let target = self.folder.join(format!("{stem}-ikfast"));
+            self.generate(robot, "fk,ik", "ikfast", &[], target.clone())?;
+            for compiler in ["g++", "clang++"] {
+                quietly(Command::new("make").args(["clean"]).current_dir(&target))?;
+                let compiler = format!("CXX={compiler}");
+                quietly(Command::new("make").args(["test", &compiler]).current_dir(&target))?;
+            }
         }
         Ok(())
     }

@@ -73,11 +73,13 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 4] = [
+    let soaks: [(&str, &[&str]); 5] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
         ("denavit-elimination", &[]),
+        // Files with IKFast's interface, at a hundred thousand poses each.
+        ("denavit-generate", &["ikfast::"]),
         // Documents that nobody should write; those that take minutes each are in no other test.
         ("denavit-check", &["hostile::", "--include-ignored"]),
     ];

@@ -39,17 +39,20 @@ pub enum Language {
     JavaScript,
     /// CUDA C++.
     Cuda,
+    /// C++ in one file: the functions in a namespace of their own, behind an interface that an attachment brings.
+    IkFast,
 }
 
 impl Language {
     /// All of them.
-    pub const ALL: [Language; 6] = [
+    pub const ALL: [Language; 7] = [
         Language::Rust,
         Language::C,
         Language::Python,
         Language::Matlab,
         Language::JavaScript,
         Language::Cuda,
+        Language::IkFast,
     ];
 
     /// Its name for people.
@@ -61,6 +64,7 @@ impl Language {
             Language::Matlab => "MATLAB",
             Language::JavaScript => "JavaScript",
             Language::Cuda => "CUDA",
+            Language::IkFast => "IKFast",
         }
     }
 }
@@ -99,18 +103,20 @@ pub struct Library<'a> {
     pub precision: Precision,
 }
 
-/// A function that is no program, written out in the language of the library (C, Rust; other languages leave it out).
+/// A function that is no program, written out in the language of the library (C, Rust, IkFast; other languages leave it out).
 ///
 /// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Attachment {
     /// Its name, such as `inverse`.
     pub name: String,
-    /// What callers see: C, for the header; Rust, for the root of the package.
+    /// What callers see: C, for the header; Rust, for the root of the package; IkFast, for the namespace, ahead of all functions.
     pub declarations: String,
-    /// C: for the source file.
+    /// C: for the source file. IkFast: for the namespace, behind the functions.
     pub definitions: String,
-    /// C: for the test, with a function `test_…` of the attachment's name.
+    /// IkFast: for the file, ahead of the namespace and behind it.
+    pub around: [String; 2],
+    /// C: for the test, with a function `test_…` of the attachment's name. IkFast: the test.
     pub test: String,
     /// Files of its own, besides.
     pub files: Vec<File>,
@@ -274,5 +280,6 @@ pub fn emit(library: &Library, language: Language) -> Vec<File> {
         Language::C => c::emit(library),
         Language::Rust => rust::emit(library),
         Language::Cuda => cuda::emit(library),
+        Language::IkFast => c::single::emit(library),
     }
 }

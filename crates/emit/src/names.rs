@@ -145,7 +145,7 @@ fn keywords(language: Language) -> &'static [&'static str] {
             "try", "type", "typeof", "union", "unsafe", "unsized", "use", "virtual", "where", "while",
             "yield",
         ],
-        Language::C | Language::Cuda => &[
+        Language::C | Language::Cuda | Language::IkFast => &[
             "alignas",
             "alignof",
             "and",

@@ -87,7 +87,7 @@ impl<'a> Nested<'a> {
 
     fn constant(&mut self, name: &str, formula: &str) {
         let declare = match self.language {
-            Language::C | Language::Cuda => "const double ",
+            Language::C | Language::Cuda | Language::IkFast => "const double ",
             Language::Rust => "let ",
             Language::JavaScript => "const ",
             Language::Matlab | Language::Python => "",
@@ -103,7 +103,7 @@ impl<'a> Nested<'a> {
 
     fn comment(&mut self, text: &str) {
         let line = match self.language {
-            Language::C | Language::Cuda => format!("/* {text} */"),
+            Language::C | Language::Cuda | Language::IkFast => format!("/* {text} */"),
             Language::Rust | Language::JavaScript => format!("// {text}"),
             Language::Matlab => format!("% {text}"),
             Language::Python => format!("# {text}"),
@@ -158,7 +158,7 @@ impl<'a> Nested<'a> {
             Language::Python => None,
             Language::Rust => Some(format!("if {residual} <= {tolerance} {{")),
             Language::Matlab => Some(format!("if {residual} <= {tolerance}")),
-            Language::C | Language::Cuda | Language::JavaScript => {
+            Language::C | Language::Cuda | Language::IkFast | Language::JavaScript => {
                 Some(format!("if ({residual} <= {tolerance}) {{"))
             }
         };
@@ -194,12 +194,14 @@ impl<'a> Nested<'a> {
             Language::Rust => "f64::MAX",
             Language::JavaScript => "Number.MAX_VALUE",
             Language::Matlab => "realmax",
-            Language::C | Language::Cuda | Language::Python => "1.7976931348623157e308",
+            Language::C | Language::Cuda | Language::IkFast | Language::Python => "1.7976931348623157e308",
         };
         let [and, times] = match language {
             Language::Python => [" & ", " * "],
             Language::Matlab => [" && ", "*"],
-            Language::C | Language::Cuda | Language::JavaScript | Language::Rust => [" && ", " * "],
+            Language::C | Language::Cuda | Language::IkFast | Language::JavaScript | Language::Rust => {
+                [" && ", " * "]
+            }
         };
         let grouped = |e: String| if language == Language::Python { format!("({e})") } else { e };
         let mut conditions: Vec<String> = vec![];
@@ -209,7 +211,7 @@ impl<'a> Nested<'a> {
         self.blank();
         match language {
             Language::Python => self.constant("is_pose", &condition),
-            Language::C | Language::Cuda | Language::JavaScript => {
+            Language::C | Language::Cuda | Language::IkFast | Language::JavaScript => {
                 self.line(&format!("if (!({condition})) {{"))
             }
             Language::Rust => self.line(&format!("if !({condition}) {{")),
@@ -221,10 +223,12 @@ impl<'a> Nested<'a> {
             self.line(if language == Language::Matlab { "end" } else { "}" });
         }
         let Some(defect) = defect else { return };
-        let is_typed = matches!(language, Language::Rust | Language::C | Language::Cuda);
+        let is_typed = matches!(language, Language::Rust | Language::C | Language::Cuda | Language::IkFast);
         let fourfold = format!("4{}{times}{defect}", if is_typed { ".0" } else { "" });
         let clamped = match language {
-            Language::C | Language::Cuda => format!("fmax(1e-9, fmin({fourfold}, {ROUNDED:e}))"),
+            Language::C | Language::Cuda | Language::IkFast => {
+                format!("fmax(1e-9, fmin({fourfold}, {ROUNDED:e}))")
+            }
             Language::Rust => format!("({fourfold}).clamp(roots::TOLERANCE, {ROUNDED:e})"),
             Language::JavaScript => format!("Math.max(1e-9, Math.min({fourfold}, {ROUNDED:e}))"),
             Language::Matlab => format!("max(1e-9, min({fourfold}, {ROUNDED:e}))"),
@@ -243,7 +247,9 @@ impl<'a> Nested<'a> {
         };
         let value = match (near.is_square, self.language) {
             (true, _) => value,
-            (false, Language::C | Language::Cuda) => format!("fabs({})", self.formula(near.value)),
+            (false, Language::C | Language::Cuda | Language::IkFast) => {
+                format!("fabs({})", self.formula(near.value))
+            }
             (false, Language::Rust) => format!("f64::abs({})", self.formula(near.value)),
             (false, Language::JavaScript) => format!("Math.abs({})", self.formula(near.value)),
             (false, Language::Matlab) => format!("abs({})", self.formula(near.value)),
@@ -276,7 +282,7 @@ impl<'a> Nested<'a> {
 
     fn note(&mut self, condition: &str) {
         let (head, condition) = match self.language {
-            Language::C | Language::Cuda | Language::Rust | Language::Python => {
+            Language::C | Language::Cuda | Language::IkFast | Language::Rust | Language::Python => {
                 ("is_near |=", condition.to_string())
             }
             Language::JavaScript => ("isNear ||=", condition.to_string()),
@@ -294,7 +300,9 @@ impl<'a> Nested<'a> {
 
     fn open(&mut self, roots: &str, i: &str, branches: usize) {
         self.line(&match self.language {
-            Language::C | Language::Cuda => format!("for (int {i} = 0; {i} < {roots}.count; {i}++) {{"),
+            Language::C | Language::Cuda | Language::IkFast => {
+                format!("for (int {i} = 0; {i} < {roots}.count; {i}++) {{")
+            }
             Language::JavaScript => format!("for (let {i} = 0; {i} < {roots}.count; {i}++) {{"),
             Language::Rust => format!("for {i} in 0..{roots}.count {{"),
             Language::Matlab => format!("for {i} = 1:{roots}.count"),
@@ -308,7 +316,9 @@ impl<'a> Nested<'a> {
         match self.language {
             Language::Python => {}
             Language::Matlab => self.line("end"),
-            Language::C | Language::Cuda | Language::Rust | Language::JavaScript => self.line("}"),
+            Language::C | Language::Cuda | Language::IkFast | Language::Rust | Language::JavaScript => {
+                self.line("}")
+            }
         }
     }
 
@@ -350,7 +360,7 @@ impl<'a> Nested<'a> {
                 let library = match language {
                     Language::JavaScript => "Math.",
                     Language::Python => "np.",
-                    Language::C | Language::Cuda | Language::Rust | Language::Matlab => "",
+                    Language::C | Language::Cuda | Language::IkFast | Language::Rust | Language::Matlab => "",
                 };
                 for (name, function) in [(sine, "sin"), (cosine, "cos")] {
                     if let Some(name) = name {
@@ -367,7 +377,7 @@ impl<'a> Nested<'a> {
         let mut arguments: Vec<String> = node.operands().into_iter().map(|e| self.formula(e)).collect();
         arguments.push(match (node.guard, self.language) {
             (Some(guard), _) => self.formula(guard),
-            (None, Language::C | Language::Cuda) => "1e300".into(),
+            (None, Language::C | Language::Cuda | Language::IkFast) => "1e300".into(),
             (None, Language::Rust) => "f64::INFINITY".into(),
             (None, Language::JavaScript) => "Infinity".into(),
             (None, Language::Matlab) => "Inf".into(),
@@ -380,7 +390,7 @@ impl<'a> Nested<'a> {
             _ => format!("{p}{kind}_roots({})", arguments.join(", ")),
         };
         let declare = match self.language {
-            Language::C | Language::Cuda => format!("const {p}roots {roots} ="),
+            Language::C | Language::Cuda | Language::IkFast => format!("const {p}roots {roots} ="),
             Language::Rust => format!("let {roots} ="),
             Language::JavaScript => format!("const {roots} ="),
             Language::Matlab | Language::Python => format!("{roots} ="),

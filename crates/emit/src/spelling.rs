@@ -35,8 +35,8 @@ impl Spelling<'_> {
             Precision::Single => format!("{:?}", x as f32),
         };
         match (self.language, self.precision) {
-            (Language::C | Language::Cuda, Precision::Single) => format!("{digits}f"),
-            (Language::Rust | Language::C | Language::Cuda, _) => digits,
+            (Language::C | Language::Cuda | Language::IkFast, Precision::Single) => format!("{digits}f"),
+            (Language::Rust | Language::C | Language::Cuda | Language::IkFast, _) => digits,
             (Language::Python | Language::Matlab | Language::JavaScript, _) => {
                 digits.strip_suffix(".0").map_or(digits.clone(), str::to_string)
             }
@@ -153,24 +153,26 @@ pub(crate) fn function_name(op: &Op, language: Language, precision: Precision) -
             return None;
         }
         (Op::Sqrt(_), Language::Rust | Language::Matlab) => "sqrt",
-        (Op::Sqrt(_), Language::C | Language::Cuda) if is_single => "sqrtf",
-        (Op::Sqrt(_), Language::C | Language::Cuda) => "sqrt",
+        (Op::Sqrt(_), Language::C | Language::Cuda | Language::IkFast) if is_single => "sqrtf",
+        (Op::Sqrt(_), Language::C | Language::Cuda | Language::IkFast) => "sqrt",
         (Op::Sqrt(_), Language::Python) => "np.sqrt",
         (Op::Sqrt(_), Language::JavaScript) => "Math.sqrt",
-        (Op::Sin(_) | Op::Cos(_), Language::Rust | Language::C | Language::Cuda) => return None,
+        (Op::Sin(_) | Op::Cos(_), Language::Rust | Language::C | Language::Cuda | Language::IkFast) => {
+            return None;
+        }
         (Op::Sin(_), Language::Python) => "np.sin",
         (Op::Sin(_), Language::JavaScript) => "Math.sin",
         (Op::Sin(_), Language::Matlab) => "sin",
         (Op::Cos(_), Language::Python) => "np.cos",
         (Op::Cos(_), Language::JavaScript) => "Math.cos",
         (Op::Cos(_), Language::Matlab) => "cos",
-        (Op::Sign(_), Language::Rust | Language::C | Language::Cuda) => "sign_of",
+        (Op::Sign(_), Language::Rust | Language::C | Language::Cuda | Language::IkFast) => "sign_of",
         (Op::Sign(_), Language::Python) => "np.sign",
         (Op::Sign(_), Language::JavaScript) => "Math.sign",
         (Op::Sign(_), Language::Matlab) => "sign",
         (Op::Atan2(..), Language::Rust | Language::Matlab) => "atan2",
-        (Op::Atan2(..), Language::C | Language::Cuda) if is_single => "atan2f",
-        (Op::Atan2(..), Language::C | Language::Cuda) => "atan2",
+        (Op::Atan2(..), Language::C | Language::Cuda | Language::IkFast) if is_single => "atan2f",
+        (Op::Atan2(..), Language::C | Language::Cuda | Language::IkFast) => "atan2",
         (Op::Atan2(..), Language::Python) => "np.arctan2",
         (Op::Atan2(..), Language::JavaScript) => "Math.atan2",
     };

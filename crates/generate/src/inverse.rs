@@ -7,6 +7,7 @@ use super::samples::{self, Sample};
 use super::words::text;
 use denavit::description::{Description, JointKind};
 use denavit::geometry::{Rotation, Transform, Vector};
+use denavit::inverse::derivation::Unknown;
 use denavit::inverse::{Goal, InverseModel, JointSpace, Refusal, variables};
 use denavit::robot::Robot;
 use denavit_emit::{Certificate, KnownSolution, Language, Precision, SolverRoutine, SolverVector};
@@ -85,6 +86,31 @@ impl Closed {
             vectors: vectors.len(),
         };
         Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors })
+    }
+
+    /// What was derived.
+    pub fn model(&self) -> &InverseModel {
+        &self.model
+    }
+
+    /// What each equation finds.
+    pub fn unknowns(&self) -> Vec<Unknown> {
+        self.model.steps.iter().map(|step| step.unknown).collect()
+    }
+
+    /// How many roots each equation has, and what a step from one to the next adds to the number of a branch.
+    pub fn strides(&self) -> Vec<[usize; 2]> {
+        let mut stride = self.solver.max_solutions();
+        let own = |branches: usize| {
+            stride /= branches;
+            [branches, stride]
+        };
+        self.solver.nodes.iter().map(|node| node.root.branches()).map(own).collect()
+    }
+
+    /// What a test holds it to.
+    pub fn vectors(&self) -> &[SolverVector] {
+        &self.vectors
     }
 
     /// What is known of it.

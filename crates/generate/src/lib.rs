@@ -3,8 +3,10 @@
 mod dynamics;
 mod forward;
 mod general;
+mod ikfast;
 mod inverse;
 mod samples;
+mod tables;
 mod tree;
 mod words;
 
@@ -16,12 +18,13 @@ use denavit::dynamics::{DynamicFunction, Loads, Masses, NoNumbers, NoProgram, Un
 use denavit::forward::Proof;
 use denavit::inverse as ik;
 use denavit::robot::MissingValue;
-use denavit_emit::{File, Language, Library, Parameter, Precision, Routine, SolverRoutine};
+use denavit_emit::{Attachment, File, Language, Library, Parameter, Precision, Routine, SolverRoutine};
 use denavit_program::Count;
 use denavit_symbolic::Expr;
 use dynamics::Dynamic;
 use forward::Forward;
 use general::General;
+use ikfast::{Interface, Solver};
 use inverse::Closed;
 use std::fmt;
 use std::str::FromStr;
@@ -165,6 +168,8 @@ pub enum Unable {
     Tree(Unknown),
     /// A function that only a chain has is wanted of a whole tree.
     OfChains(Wanted),
+    /// A function that IKFast's interface does not have is wanted behind it.
+    NotInInterface(Wanted),
     /// A payload is wanted beside base parameters, of which it would be a part.
     Payload,
     /// A wrench of the tool, or a payload, is wanted, and no function feels it.
@@ -182,6 +187,7 @@ impl fmt::Display for Unable {
             Unable::Program(none) => none.fmt(f),
             Unable::Tree(why) => why.fmt(f),
             Unable::OfChains(wanted) => write!(f, "{wanted} is of a chain, not of a whole tree"),
+            Unable::NotInInterface(wanted) => write!(f, "IKFast's interface has fk and ik, and no {wanted}"),
             Unable::Payload => f.write_str("base parameters have what the tool carries in them"),
             Unable::Loads { .. } => f.write_str("no function that is asked for feels it"),
         }
@@ -212,7 +218,7 @@ impl Generated {
         };
         match language {
             Language::Rust => "cargo test".into(),
-            Language::C => "make test".into(),
+            Language::C | Language::IkFast => "make test".into(),
             Language::Python => format!("python -W error {}", file("test_", ".py")),
             Language::Matlab => format!("octave --no-gui --quiet {}", file("test_", ".m")),
             Language::JavaScript => "node --test".into(),
@@ -221,14 +227,17 @@ impl Generated {
     }
 }
 
-/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C and Rust, and
-/// left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with them.
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, Rust and behind
+/// IKFast's interface, and left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
+/// them. IKFast's interface has `fk` and `ik`, both of them, with the values of parameters in them.
 ///
 /// # Errors
-/// With `fixed`: if a parameter has no value. With [`Masses::Numbers`]: if the description says nothing of masses;
+/// With `fixed`: if a parameter has no value. With IKFast's interface: the same; if other functions are wanted. With [`Masses::Numbers`]: if the description says nothing of masses;
 /// with [`Masses::Base`]: if energies are wanted, or a payload. If accelerations are wanted and a joint moves no mass; if a load is
 /// wanted that no function feels.
 pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, Unable> {
+    let options = &ikfast::completed(options)?;
+    let is_interface = options.language == Language::IkFast;
     let fixed;
     let d = if options.fixed {
         fixed = with_values(description).map_err(Unable::Fixed)?;
@@ -259,7 +268,8 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     });
     let moving = dynamic.iter().flat_map(Dynamic::functions);
     let functions: Vec<Function> = of_joints.chain(moving).collect();
-    if functions.is_empty() && closed.is_none() && general.is_none() {
+    let is_inverse = closed.is_some() || general.is_some();
+    if !is_inverse && (functions.is_empty() || is_interface) {
         return Ok(Generated { files: vec![], functions, inverse: None, refused });
     }
     let samples = samples::samples(d);
@@ -270,10 +280,21 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
         .map(|p| words::parameter(d, p.symbol, p.value))
         .chain(dynamic.iter().flat_map(Dynamic::parameters))
         .collect();
-    let about: Vec<String> =
+    let mut about: Vec<String> =
         closed.iter().flat_map(Closed::header).chain(general.iter().flat_map(General::header)).collect();
+    let mut attachments: Vec<Attachment> = general.iter().map(General::attachment).collect();
     let mut routines: Vec<Routine> = programs.iter().map(|f| f.routine(d, &samples)).collect();
     let mut solvers: Vec<SolverRoutine> = closed.iter().map(Closed::routine).collect();
+    let solver = closed.as_ref().map(Solver::Closed).or(general.as_ref().map(Solver::General));
+    if let (true, Some(solver), Some(pose)) = (is_interface, solver, routines.first()) {
+        match Interface::new(d, solver, pose, samples::size(&samples)) {
+            Ok(interface) => {
+                about.extend(interface.header(&forward::ends(d)));
+                attachments.push(interface.attachment());
+            }
+            Err(why) => return Ok(Generated { files: vec![], functions, inverse: None, refused: Some(why) }),
+        }
+    }
     if let Some(dynamic) = &dynamic {
         // Every function takes all variables and parameters of the library.
         let values = dynamic.values();
@@ -299,7 +320,7 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
         parameters,
         routines,
         solvers,
-        attachments: general.iter().map(General::attachment).collect(),
+        attachments,
         precision: options.precision,
     };
     let files = denavit_emit::emit(&library, options.language);

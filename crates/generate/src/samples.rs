@@ -42,6 +42,12 @@ pub(super) fn unit(reach: f64) -> f64 {
     if reach == 0.0 || (0.03..30.0).contains(&reach) { 1.0 } else { 10_f64.powf(reach.log10().round()) }
 }
 
+/// A bound on the distances between origins, m; 1 where there are none.
+pub(super) fn size(samples: &[Sample]) -> f64 {
+    let reach = samples.iter().map(|s| s.reach).fold(0.0, f64::max);
+    if reach > 0.0 { reach } else { 1.0 }
+}
+
 /// Values of the parameters: those of the robot file, and others where it has none.
 pub(super) fn parameters(d: &Description) -> Vec<f64> {
     let parameters = d.parameters.iter().enumerate();

@@ -13,6 +13,7 @@ use denavit_symbolic::Symbol;
 /// If a function is of a chain; if a load at a tool is wanted; if masses or values are missing, or a joint moves no mass and
 /// accelerations are wanted.
 pub fn generate_tree(m: &Mechanism, options: &PackageOptions) -> Result<Generated, Unable> {
+    let options = &super::ikfast::completed(options)?;
     let mut functions = vec![];
     for &wanted in &options.functions {
         match wanted {

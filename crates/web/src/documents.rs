@@ -76,7 +76,9 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<C
         .into_iter()
         .find(wanted)
         .ok_or_else(|| Refusal::new(format!("no code is written in `{language}`")))?;
-    let functions = vec![Wanted::Pose, Wanted::Jacobian, Wanted::Inverse];
+    // IKFast's interface has no Jacobian.
+    let mut functions = vec![Wanted::Pose, Wanted::Jacobian, Wanted::Inverse];
+    functions.retain(|w| language != Language::IkFast || *w != Wanted::Jacobian);
     let options = PackageOptions {
         language,
         functions,
@@ -88,6 +90,9 @@ pub fn code(subject: &Subject, language: &str, name: Option<String>) -> Result<C
         fixed: false,
     };
     let made = generate(&subject.description, &options).map_err(|why| Refusal::new(why.to_string()))?;
+    if let (Some(why), true) = (&made.refused, made.files.is_empty()) {
+        return Err(Refusal::new(format!("ik: {why}")));
+    }
     let mut words: Vec<String> =
         made.functions.iter().map(|f| format!("{}: {}; {}", f.wanted, f.count, f.claim)).collect();
     words.extend(made.refused.iter().map(|why| format!("no ik: {why}")));

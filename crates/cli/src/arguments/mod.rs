@@ -447,7 +447,7 @@ pub struct GenerateArguments {
     /// The name of files and functions; the robot's if not given
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Write the values of parameters into the code instead of taking them as arguments
+    /// Write the values of parameters into the code instead of taking them as arguments (IKFast's interface always does)
     #[arg(long)]
     pub fixed: bool,
     /// Single precision (C and CUDA)
@@ -520,6 +520,8 @@ pub enum LanguageName {
     Javascript,
     /// CUDA C++
     Cuda,
+    /// A C++ file with IKFast's interface (ComputeIk, ComputeFk), for MoveIt, OpenRAVE, Tesseract
+    Ikfast,
 }
 
 impl From<LanguageName> for Language {
@@ -531,6 +533,7 @@ impl From<LanguageName> for Language {
             LanguageName::Matlab => Language::Matlab,
             LanguageName::Javascript => Language::JavaScript,
             LanguageName::Cuda => Language::Cuda,
+            LanguageName::Ikfast => Language::IkFast,
         }
     }
 }

@@ -117,7 +117,19 @@ fn options(
 /// Why nothing is generated.
 fn refused(why: &Unable, arguments: &GenerateArguments) -> Failure {
     Failure::Input(match why {
-        Unable::Fixed(missing) => format!("error: --fixed: {missing}\n  = hint: give values with --set"),
+        Unable::Fixed(missing) if arguments.fixed => {
+            format!("error: --fixed: {missing}\n  = hint: give values with --set")
+        }
+        Unable::Fixed(missing) => {
+            format!(
+                "error: IKFast's interface takes no parameters: {missing}\n  = hint: give values with --set"
+            )
+        }
+        Unable::NotInInterface(_) => {
+            format!(
+                "error: --language ikfast: {why}\n  = hint: --language c has all functions, and is C++ too"
+            )
+        }
         Unable::Program(NoProgram::Energy) => {
             format!("error: --masses base: {why}\n  = hint: leave energy out, or --masses links")
         }

@@ -77,6 +77,28 @@ fn every_language_has_jacobians() {
     }
 }
 
+/// IKFast's interface has pose and inverse, both by default, with the values of parameters in them.
+#[test]
+fn the_interface_of_ikfast_has_what_it_has() {
+    let folder = folder("ikfast");
+    let answer = generated("franka-panda", "ikfast", &folder, &["--name", "panda_solver", "--given", "q7"]);
+    assert_eq!(answer["files"][0], "panda_solver.cpp");
+    assert_eq!(answer["functions"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answer["ik"]["given"][0], "q7");
+    let text = texts(&folder, &answer).concat();
+    for part in ["IKFAST_API bool ComputeIk(", "static int joints[1] = {6};", "return 0x67000001;"] {
+        assert!(text.contains(part), "{part}");
+    }
+    let path = folder.to_str().expect("a path");
+    let asked = |robot: &'static str| ["generate", robot, "--language", "ikfast", "--output", path];
+    refused(
+        &[&asked("ur5")[..], &["--functions", "fk,jacobian"]].concat(),
+        3,
+        "--language c has all functions",
+    );
+    refused(&asked("articulated-3r"), 4, "--goal position asks for what it can");
+}
+
 #[test]
 fn pose_and_jacobian_together_are_one_pass_too() {
     let folder = folder("one-pass");

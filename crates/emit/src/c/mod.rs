@@ -3,8 +3,12 @@
 //! A function for one configuration, and one for a block of some with the values of all lanes side by side. The
 //! routines for sines, cosines and angles are embedded (`c/*.c`), since a compiler makes vector code of them.
 
+pub(crate) mod single;
 pub(crate) mod solver;
 pub(crate) mod test;
+mod words;
+
+pub(crate) use words::RESERVED;
 
 use crate::compiled::{
     Body, EIGHT, Function, Pair, Step, WIDTH, WRAP, about_angles, defaults, file_name, functions, inputs,
@@ -18,118 +22,6 @@ use crate::wrap::comments;
 use crate::{Attachment, File, Language, Library, Parameter, Precision};
 use denavit_symbolic::{Expr, Symbol};
 use std::fmt::Write;
-
-/// Words that the emitted code uses, and macros of the headers it includes.
-pub(crate) const RESERVED: &[&str] = &[
-    "q",
-    "parameters",
-    "lane",
-    "in_range",
-    "sine_cosine",
-    "sign_of",
-    "near_sine_cosine",
-    "eight_sines_and_cosines",
-    "near_atan2",
-    "any_atan2",
-    "i",
-    "null",
-    "nan",
-    "infinity",
-    "huge_val",
-    "huge_valf",
-    "huge_vall",
-    "huge",
-    "maxfloat",
-    "errno",
-    "domain",
-    "sing",
-    "overflow",
-    "underflow",
-    "ploss",
-    "tloss",
-    "offsetof",
-    "fused",
-    "clones",
-    "inline",
-    "noinline",
-    "restrict",
-    "multiply_add",
-    "sine_cosine_limit",
-    "math_errno",
-    "math_errexcept",
-    "math_errhandling",
-    "fp_nan",
-    "fp_infinite",
-    "fp_zero",
-    "fp_subnormal",
-    "fp_normal",
-    "fp_ilogb0",
-    "fp_ilogbnan",
-    "fp_fast_fma",
-    "fp_fast_fmaf",
-    "fp_fast_fmal",
-    "m_e",
-    "m_log2e",
-    "m_log10e",
-    "m_ln2",
-    "m_ln10",
-    "m_pi",
-    "m_pi_2",
-    "m_pi_4",
-    "m_1_pi",
-    "m_2_pi",
-    "m_2_sqrtpi",
-    "m_sqrt2",
-    "m_sqrt1_2",
-    "int8_max",
-    "int16_max",
-    "int32_max",
-    "int64_max",
-    "int8_min",
-    "int16_min",
-    "int32_min",
-    "int64_min",
-    "uint8_max",
-    "uint16_max",
-    "uint32_max",
-    "uint64_max",
-    "size_max",
-    "intptr_max",
-    "intptr_min",
-    "uintptr_max",
-    "intmax_max",
-    "intmax_min",
-    "uintmax_max",
-    "ptrdiff_max",
-    "ptrdiff_min",
-    "wchar_max",
-    "wchar_min",
-    "wint_max",
-    "wint_min",
-    "sig_atomic_max",
-    "sig_atomic_min",
-    "real",
-    "values",
-    "value",
-    "variables",
-    "one",
-    "block",
-    "expected",
-    "allowed",
-    "tolerance",
-    "check",
-    "failures",
-    "v",
-    "j",
-    "k",
-    "near",
-    "far",
-    "small",
-    "min",
-    "max",
-    "i386",
-    "assert",
-];
 
 pub(crate) fn emit(library: &Library) -> Vec<File> {
     let name = file_name(library, Language::C);
@@ -346,13 +238,30 @@ impl Source<'_> {
             "#include \"{name}.h\"\n\n#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
         );
         text.push_str(&include_str!("macros.c").replace("@NAME@", &upper));
+        text.push_str(&self.routines());
+        if let Some(values) = defaults(self.library) {
+            let values: Vec<String> = values.into_iter().map(|x| self.number(x)).collect();
+            let _ = write!(text, "\nconst {name}_parameters {name}_defaults = {{\n");
+            text.push_str(&lines(&WRAP.list(&values, 4)));
+            text.push_str("};\n");
+        }
+        for f in &self.functions {
+            text.push_str(&self.one(f));
+            text.push_str(&self.block(f));
+        }
+        text + &self.solvers() + &self.attached(|a| &a.definitions)
+    }
+
+    /// The routines for sines, cosines, angles and signs, as far as something calls them.
+    fn routines(&self) -> String {
+        let mut text = String::new();
         let single = self.library.precision == Precision::Single;
         let either = |of_double, of_single| if single { of_single } else { of_double };
         let pairs = Function::any_pair(&self.functions) || !single && Plan::any_pair(&self.plans);
         let atan2 = Function::any_atan2(&self.functions) || !single && Plan::any_atan2(&self.plans);
         if pairs || atan2 || !self.library.attachments.is_empty() {
             let fma = if single { "fmaf" } else { "fma" };
-            text.push_str(&include_str!("class.c").replace("@NAME@", &upper).replace("@FMA@", fma));
+            text.push_str(&include_str!("class.c").replace("@NAME@", &self.upper()).replace("@FMA@", fma));
         }
         if pairs {
             text.push_str(either(include_str!("sine_cosine_double.c"), include_str!("sine_cosine_single.c")));
@@ -367,17 +276,7 @@ impl Source<'_> {
         if Function::any_sign(&self.functions) {
             text.push_str(&self.in_precision(include_str!("sign.c")));
         }
-        if let Some(values) = defaults(self.library) {
-            let values: Vec<String> = values.into_iter().map(|x| self.number(x)).collect();
-            let _ = write!(text, "\nconst {name}_parameters {name}_defaults = {{\n");
-            text.push_str(&lines(&WRAP.list(&values, 4)));
-            text.push_str("};\n");
-        }
-        for f in &self.functions {
-            text.push_str(&self.one(f));
-            text.push_str(&self.block(f));
-        }
-        text + &self.solvers() + &self.attached(|a| &a.definitions)
+        text
     }
 
     /// A text of all attachments.

@@ -92,7 +92,7 @@ impl Source<'_> {
         text
     }
 
-    fn solver(&self, plan: &Plan) -> String {
+    pub(super) fn solver(&self, plan: &Plan) -> String {
         let is_double = self.library.precision == Precision::Double;
         let mut out = Body { text: format!("\n{}\n{{\n", self.solver_signature(plan, "")), indent: 4 };
         if plan.variables().is_empty() {

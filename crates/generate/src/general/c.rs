@@ -1,6 +1,7 @@
 //! The function in C99: the algorithm of `denavit-elimination`, its constants as tables, and a test.
 
 use super::General;
+use crate::tables::{integers, list, table, wrapped};
 use denavit_elimination::{Joint, Rigid, Split, Tables};
 use denavit_emit::Attachment;
 use std::f64::consts::TAU;
@@ -18,18 +19,16 @@ const PARTS: [&str; 9] = [
     include_str!("wide.c"),
     include_str!("solve.c"),
 ];
-/// Width of a line.
-const WIDTH: usize = 100;
-
-pub(super) fn attachment(general: &General, tables: &Tables) -> Attachment {
+/// The function; with its test, unless something else tests it.
+pub(super) fn attachment(general: &General, tables: &Tables, is_tested: bool) -> Attachment {
     let about: String = general.about.iter().map(|line| wrapped(" * ", line, " ")).collect();
     let about = format!("/*\n{}\n */", about.trim_end());
     Attachment {
         name: "ik".into(),
         declarations: include_str!("declarations.h").replace("@about@", &about),
         definitions: include_str!("head.c").to_string() + &constants(general, tables) + &PARTS.concat(),
-        test: test(general),
-        files: vec![],
+        test: if is_tested { test(general) } else { String::new() },
+        ..Attachment::default()
     }
 }
 
@@ -108,54 +107,12 @@ fn rigid(x: &Rigid, indent: usize) -> String {
     )
 }
 
-fn integers<T: std::fmt::Display>(values: &[T]) -> String {
-    let values: Vec<String> = values.iter().map(T::to_string).collect();
-    format!("{{{}}}", values.join(", "))
-}
-
 fn vector(name: &str, values: &[f64]) -> String {
     format!("\nstatic const double {name} =\n{};\n", list(values, 4))
 }
 
 fn matrix<R: AsRef<[f64]>>(name: &str, rows: &[R]) -> String {
     format!("\nstatic const double {name} = {{\n{}\n}};\n", table(rows))
-}
-
-fn table<R: AsRef<[f64]>>(rows: &[R]) -> String {
-    let rows: Vec<String> = rows.iter().map(|row| list(row.as_ref(), 4)).collect();
-    rows.join(",\n")
-}
-
-/// Numbers in braces, on as many lines as they need.
-fn list(values: &[f64], indent: usize) -> String {
-    let margin = " ".repeat(indent);
-    let numbers: Vec<String> = values.iter().map(|x| format!("{x:?}")).collect();
-    let whole = format!("{margin}{{{}}}", numbers.join(", "));
-    if whole.len() <= WIDTH {
-        return whole;
-    }
-    let inner = wrapped(&format!("{margin}    "), &numbers.join(", "), "");
-    format!("{margin}{{\n{inner}{margin}}}")
-}
-
-/// Lines of bounded length behind a prefix; those after the first are indented by `more`.
-fn wrapped(prefix: &str, text: &str, more: &str) -> String {
-    let mut lines = String::new();
-    let mut line = prefix.to_string();
-    let mut is_empty = true;
-    for word in text.split(' ') {
-        if !is_empty && line.len() + 1 + word.len() > WIDTH {
-            let _ = writeln!(lines, "{}", line.trim_end());
-            line = format!("{prefix}{more}");
-            is_empty = true;
-        }
-        if !is_empty {
-            line.push(' ');
-        }
-        line.push_str(word);
-        is_empty = false;
-    }
-    lines + line.trim_end() + "\n"
 }
 
 fn test(general: &General) -> String {

@@ -20,7 +20,7 @@ use denavit_emit::{Attachment, Language};
 use denavit_symbolic::{Expr, Symbol};
 
 /// Room for solutions: that many an arm has at most where none are double.
-const MAX: usize = 16;
+pub(super) const MAX: usize = 16;
 
 /// An inverse function by elimination.
 pub(super) struct General {
@@ -35,15 +35,15 @@ pub(super) struct General {
     /// What the function is about, without comment signs.
     about: Vec<String>,
     facts: Inverse,
-    vectors: Vec<Vector>,
+    pub vectors: Vec<Vector>,
 }
 
 /// A pose, a configuration that has it, and all configurations that have it.
-struct Vector {
+pub(super) struct Vector {
     /// Rows 1 to 3.
-    pose: [[f64; 4]; 3],
+    pub pose: [[f64; 4]; 3],
     configuration: Option<Vec<f64>>,
-    solutions: Vec<Vec<f64>>,
+    pub solutions: Vec<Vec<f64>>,
 }
 
 impl General {
@@ -74,15 +74,15 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C if tables.is_some() => {}
-            Language::C => {
+            Language::C | Language::IkFast if tables.is_some() => {}
+            Language::C | Language::IkFast => {
                 return Err(Some(
                     "elimination in C serves arms with at most one prismatic joint; --language rust serves this one".into(),
                 ));
             }
-            _ => {
+            Language::Python | Language::Matlab | Language::JavaScript | Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C and Rust (--language c, --language rust)".into(),
+                    "elimination is generated in C and Rust (--language c, --language rust; --language ikfast is C++)".into(),
                 ));
             }
         }
@@ -122,7 +122,8 @@ impl General {
     /// The function in its language.
     pub fn attachment(&self) -> Attachment {
         match (&self.tables, self.language) {
-            (Some(tables), Language::C) => c::attachment(self, tables),
+            (Some(tables), Language::C) => c::attachment(self, tables, true),
+            (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
             _ => rust::attachment(self),
         }
     }

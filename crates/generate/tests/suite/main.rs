@@ -3,6 +3,7 @@
 mod attack;
 mod certificate;
 mod general;
+mod ikfast;
 mod library;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]

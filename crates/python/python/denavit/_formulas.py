@@ -147,7 +147,7 @@ class Derivations:
     def generate(
         self,
         language: str,
-        functions: Sequence[str] = ("fk", "jacobian", "ik"),
+        functions: Optional[Sequence[str]] = None,
         *,
         folder: Optional[PathLike] = None,
         name: Optional[str] = None,
@@ -155,6 +155,10 @@ class Derivations:
         overwrite: bool = False,
     ) -> dict[str, str]:
         """Source code that builds and tests itself: texts by the path of their file.
+
+        ``language`` is ``rust``, ``c``, ``python``, ``matlab``, ``javascript``, ``cuda``, or ``ikfast``: a C++ file with IKFast's
+        interface, which has ``fk`` and ``ik`` and nothing else. ``functions`` that are not named are ``fk``, ``jacobian`` and ``ik``,
+        as far as the language has them.
 
         Written to ``folder`` where one is given; files that are there already with other contents stay, all of them, unless
         ``overwrite`` says otherwise.
@@ -166,7 +170,9 @@ class Derivations:
         Raises `UsageError` if there is no such language or function, `UnsupportedError` if there is no such code, `FileError`
         if a file stands in the way or cannot be written.
         """
-        if isinstance(functions, str):
+        if functions is None:
+            functions = ["fk", "ik"] if language.lower() == "ikfast" else ["fk", "jacobian", "ik"]
+        elif isinstance(functions, str):
             functions = [part.strip() for part in functions.split(",")]
         files = dict(self._core.generate(language, list(functions), name, goal)[0])
         if folder is not None:

@@ -194,7 +194,7 @@ fn documents_code_and_pictures_are_made() {
             assert!(report["text"].as_str().is_some_and(|t| t.len() > 10_000), "{format}");
         }
     }
-    for language in ["rust", "c", "python", "matlab", "javascript", "cuda"] {
+    for language in ["rust", "c", "python", "matlab", "javascript", "cuda", "ikfast"] {
         let code = told("code", json!({ "language": language }));
         assert!(code["files"].as_array().is_some_and(|f| f.len() > 1), "{language}: {code}");
         assert!(code["test"].as_str().is_some_and(|t| !t.is_empty()), "{language}");

@@ -467,7 +467,7 @@ export interface Requests {
   fall: [{ q: number[]; seconds: number }, Path];
   check: [{ text: string; name: string }, Checked];
   report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
-  code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
+  code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda" | "ikfast"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
   tree: [TreeWanted, TreeTaken];
   figure: [{ q: number[]; scheme: boolean; azimuth?: number; elevation?: number }, { svg: string }];
 }

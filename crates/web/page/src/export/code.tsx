@@ -19,6 +19,7 @@ const LANGUAGES: { key: Language; title: string }[] = [
   { key: "matlab", title: "MATLAB" },
   { key: "javascript", title: "JavaScript" },
   { key: "cuda", title: "CUDA" },
+  { key: "ikfast", title: "IKFast" },
 ];
 
 const language = signal<Language>("c");
