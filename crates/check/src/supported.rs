@@ -18,6 +18,9 @@ pub(super) struct Supported {
     pub head: Range<usize>,
 }
 
+/// A convention, and how many statements are right and how many wrong in it.
+type Score = (Convention, [usize; 2]);
+
 /// So many more right statements say what a convention is where none is wrong in another.
 const CLEARLY: usize = 3;
 
@@ -35,8 +38,8 @@ pub(super) fn by_statements(
     let kind = kind_of_tables(format);
     let unsaid =
         listing::tables_of(text, kind, options, &options.table).into_iter().find(|t| t.robot.is_err())?;
-    let mut scores: Vec<(Convention, [usize; 2])> = vec![];
-    let mut of_dynamics: Vec<(Convention, [usize; 2])> = vec![];
+    let mut scores: Vec<Score> = vec![];
+    let mut of_dynamics: Vec<Score> = vec![];
     for convention in Convention::ALL {
         let mut there = options.clone();
         there.table.convention = Some(convention);
@@ -59,9 +62,7 @@ pub(super) fn by_statements(
     }
     // A document of torques and energies has few formulas of positions.
     let found = clearly(scores.clone()).or_else(|| {
-        let both = |(s, d): (&(Convention, [usize; 2]), &(Convention, [usize; 2]))| {
-            (s.0, [s.1[0] + d.1[0], s.1[1] + d.1[1]])
-        };
+        let both = |(s, d): (&Score, &Score)| (s.0, [s.1[0] + d.1[0], s.1[1] + d.1[1]]);
         clearly(scores.iter().zip(&of_dynamics).map(both).collect())
     })?;
     let end = text[unsaid.span.start..].find('\n').map_or(unsaid.span.end, |n| unsaid.span.start + n);
@@ -70,7 +71,7 @@ pub(super) fn by_statements(
 }
 
 /// The convention in which more is right and less wrong than in any other, how much is right in it and how much at most in another.
-fn clearly(mut scores: Vec<(Convention, [usize; 2])>) -> Option<(Convention, usize, usize)> {
+fn clearly(mut scores: Vec<Score>) -> Option<(Convention, usize, usize)> {
     scores.sort_by_key(|s| std::cmp::Reverse(s.1[0]));
     let &(convention, [right, wrong]) = scores.first()?;
     let rivals = &scores[1..];
