@@ -308,8 +308,10 @@ def _warned(core: Core, known: int = 0) -> Core:
     if found:
         import sys
         import warnings
+        from types import FrameType
 
-        level, frame = 1, sys._getframe()
+        level = 1
+        frame: FrameType | None = sys._getframe()
         while frame is not None and frame.f_globals.get("__name__", "").startswith("denavit."):
             level, frame = level + 1, frame.f_back
         for finding in found:
