@@ -164,7 +164,8 @@ pub(super) fn in_programs(text: &str, walked: &Walked, claims: &mut [Claim]) {
 /// The angle of a sine and a cosine that have formulas of their own before, `θ3 = atan2(s3, c3)`: it is proved with them, and carried
 /// where one of them is wrong.
 pub(super) fn by_sines(walked: &Walked, claims: &mut [Claim]) {
-    for k in 0..claims.len().min(walked.assertions.len()) {
+    let count = claims.len().min(walked.assertions.len());
+    for k in 0..count {
         let assertion = &walked.assertions[k];
         let Some(Spoken::Joint { of, branches, .. }) = &assertion.spoken else { continue };
         let (sine, cosine) = of.sin_cos();
@@ -172,8 +173,7 @@ pub(super) fn by_sines(walked: &Walked, claims: &mut [Claim]) {
             continue;
         }
         let told = |e: Expr| {
-            let mut before =
-                walked.assertions[..claims.len().min(walked.assertions.len())].iter().enumerate();
+            let mut before = walked.assertions[..count].iter().enumerate();
             let is_it = |(_, a): &(usize, &Assertion)| {
                 a.subject == assertion.subject
                     && a.span.end <= assertion.span.start
@@ -185,13 +185,21 @@ pub(super) fn by_sines(walked: &Walked, claims: &mut [Claim]) {
         let wrong = |j: &usize| matches!(claims[*j].standing(), Standing::Wrong | Standing::Carried);
         let by = [a, b].into_iter().find(wrong);
         let both = [a, b].map(|j| &claims[j]);
-        let identities = both.iter().flat_map(|c| &c.entries).flat_map(|e| e.identities.clone()).collect();
-        let is_right = both.iter().all(|c| c.standing() == Standing::Equal);
+        let entries = || both.iter().flat_map(|c| &c.entries);
+        let identities = entries().flat_map(|e| e.identities.clone()).collect();
+        // What only agrees in samples proves nothing; what a sine divides by, its angle does.
+        let is_right = both.iter().all(|c| c.standing() == Standing::Equal)
+            && entries().all(|e| !e.identities.is_empty());
+        let mut unless_zero = vec![];
+        for entry in entries() {
+            let Finding::Equal { unless_zero: own } = &entry.finding else { continue };
+            unless_zero.extend(own.iter().cloned());
+        }
         let Some(entry) = claims[k].entries.first_mut() else { continue };
         match by {
             Some(by) => entry.finding = Finding::Carried { by, correct: vec![] },
             None if is_right => {
-                entry.finding = Finding::Equal { unless_zero: vec![] };
+                entry.finding = Finding::Equal { unless_zero };
                 entry.identities = identities;
             }
             None => {}

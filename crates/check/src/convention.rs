@@ -218,7 +218,6 @@ pub(super) fn named(text: &str) -> Vec<(Convention, Range<usize>)> {
 /// Words that deny what stands behind them.
 const DENIALS: &[&str] = &[
     "not",
-    "n't",
     "than",
     "instead",
     "unlike",
@@ -290,8 +289,10 @@ const BETWEEN: &[&str] = &[
 /// True if what stands before a word denies it: `not Craig`, `rather than the modified …`, `nicht nach Craig`.
 fn is_denied(before: &str) -> bool {
     let clause = before.rsplit(['.', ';', ':', '\n']).next().unwrap_or_default();
-    let mut words = clause.split(|c: char| !(c.is_alphabetic() || c == '\'')).rev().filter(|w| !w.is_empty());
-    words.find(|w| !BETWEEN.contains(w)).is_some_and(|w| DENIALS.contains(&w) || w.ends_with("n't"))
+    let words = clause.split(|c: char| !(c.is_alphabetic() || c == '\'')).rev().filter(|w| !w.is_empty());
+    let Some((between, word)) = words.enumerate().find(|(_, w)| !BETWEEN.contains(w)) else { return false };
+    // Portuguese `no Craig` is `in Craig`; Spanish `no la de Craig` denies.
+    DENIALS.contains(&word) && (word != "no" || between > 0) || word.ends_with("n't")
 }
 
 /// True if no letter stands before a place.
@@ -480,6 +481,8 @@ mod tests {
             ("(DH, the textbook version, not Craig)", vec![Standard]),
             ("the modified DH convention rather than the standard one", vec![Craig]),
             ("DH-Tabelle (nicht nach Craig)", vec![Standard]),
+            ("parâmetros como no Craig", vec![Craig]),
+            ("la tabla (no la de Craig)", vec![Standard]),
             ("not the standard but the modified DH table", vec![Craig]),
             ("Modifizierte DH-Parameter", vec![Craig]),
             ("paramètres de Khalil et Kleinfinger", vec![Khalil]),

@@ -1,5 +1,6 @@
 //! What a function gives back by its name, its arguments and its shape.
 
+use super::JACOBIANS;
 use super::stated::in_radians;
 use super::{Program, recognised};
 use crate::facts::{About, Meaning};
@@ -116,10 +117,11 @@ pub(super) fn gives_another(function: &Reading) -> bool {
     !is_jacobian && words(&function.name).any(|w| OTHERS.iter().any(|other| w.starts_with(other)))
 }
 
-/// True if a matrix or its function is called an inverse: `J_inv`, `Ji`, `def jac_inv(…)`.
+/// True if a matrix is called an inverse, `J_inv`, `Ji`, or is what a function of that name gives, `def jac_inv(…)`; what such a function
+/// calls `J` is none.
 pub(super) fn says_inverse(function: &Reading, shown: &str) -> bool {
-    let names = [function.name.to_lowercase(), shown.to_lowercase()];
-    names.iter().any(|n| n.contains("inv")) || matches!(shown, "Ji" | "iJ" | "J_i")
+    let says = |name: &str| name.to_lowercase().contains("inv");
+    says(shown) || matches!(shown, "Ji" | "iJ" | "J_i") || says(&function.name) && !JACOBIANS.contains(&shown)
 }
 
 /// True for a function whose name says that it gives a velocity.

@@ -124,7 +124,7 @@ fn display(formula: &str) -> String {
 
 #[test]
 fn deep_nesting() {
-    let n = share(100_000, 20_000);
+    let n = share(100_000, 40_000);
     for (open, inner, close) in [
         ("(", "C1", ")"),
         ("[", "C1", "]"),
