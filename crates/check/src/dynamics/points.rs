@@ -5,7 +5,7 @@ use super::letters::Letters;
 use super::matrices::{Cells, Factor, times};
 use super::model::State;
 use super::quantity::Quantity;
-use super::statements::{Helper, Piece, Reader, lone_name};
+use super::statements::{Piece, Reader, lone_name};
 use super::words::{Role, without_looks, words};
 use crate::jacobians::derivative;
 use crate::note::Unread;
@@ -181,7 +181,7 @@ impl Reader<'_> {
 
     /// A statement that says what numbers of a point are.
     pub(super) fn point(&mut self, at: usize, all: &[Named], formulas: &[(usize, Range<usize>, Syntax)]) {
-        let Some((_, span, syntax)) = formulas.first() else { return };
+        let Some((_, _, syntax)) = formulas.first() else { return };
         let value = syntax.value();
         let content = self.content(value);
         if content.accelerations || content.gravity || value.symbols().is_empty() && !value.is_zero() {
@@ -198,18 +198,7 @@ impl Reader<'_> {
                 _ => named.word.clone(),
             };
             if candidates.is_empty() {
-                let (span, syntax) = (span.clone(), syntax.clone());
-                let also = formulas[1..].iter().map(|f| (f.1.clone(), f.2.value())).collect();
-                let name = name.clone();
-                self.read.helpers.push(Helper {
-                    statement: at,
-                    name,
-                    span,
-                    syntax,
-                    value,
-                    also,
-                    uses: vec![],
-                });
+                self.helper(at, name.clone(), formulas);
             }
             for (_, span, syntax) in formulas.iter().filter(|_| !candidates.is_empty()) {
                 let number = self.read.pieces.len();

@@ -282,6 +282,19 @@ impl Reader<'_> {
         }
     }
 
+    /// Keeps a name that other formulas use, by the first of its formulas, the others beside it.
+    pub(super) fn helper(
+        &mut self,
+        statement: usize,
+        name: String,
+        formulas: &[(usize, Range<usize>, Syntax)],
+    ) {
+        let Some(((_, span, syntax), others)) = formulas.split_first() else { return };
+        let also = others.iter().map(|f| (f.1.clone(), f.2.value())).collect();
+        let (span, syntax, value) = (span.clone(), syntax.clone(), syntax.value());
+        self.read.helpers.push(Helper { statement, name, span, syntax, value, also, uses: vec![] });
+    }
+
     /// A zero is of the kind that the other formulas under its letters have: `V_2 = 0` below `V_1 = …`.
     fn zeros(&mut self) {
         let family = |piece: &Piece| {
@@ -478,21 +491,11 @@ impl Reader<'_> {
                 row[j] = Some(self.read.pieces.len() - 1);
             }
         }
-        let (_, span, syntax) = &formulas[0];
+        let (_, _, syntax) = &formulas[0];
         for (_, name) in &names {
             let (name, value) = (word(name), syntax.value());
             if !is_judged && first.as_ref().is_some_and(|f| word(f) == name) {
-                let (name, span, syntax) = (name.clone(), span.clone(), syntax.clone());
-                let also = formulas[1..].iter().map(|f| (f.1.clone(), f.2.value())).collect();
-                self.read.helpers.push(Helper {
-                    statement: at,
-                    name,
-                    span,
-                    syntax,
-                    value,
-                    also,
-                    uses: vec![],
-                });
+                self.helper(at, name.clone(), &formulas);
             }
             self.define(&name, value);
         }
