@@ -232,8 +232,8 @@ impl Generated {
 /// them. IKFast's interface has `fk` and `ik`, both of them, with the values of parameters in them.
 ///
 /// # Errors
-/// With `fixed`: if a parameter has no value. With IKFast's interface: the same; if other functions are wanted. With [`Masses::Numbers`]: if the description says nothing of masses;
-/// with [`Masses::Base`]: if energies are wanted, or a payload. If accelerations are wanted and a joint moves no mass; if a load is
+/// With `fixed`: if a parameter has no value. With IKFast's interface: the same; if other functions are wanted. With
+/// [`Masses::Numbers`]: if the description says nothing of masses; with [`Masses::Base`]: if energies are wanted, or a payload. If accelerations are wanted and a joint moves no mass; if a load is
 /// wanted that no function feels.
 pub fn generate(description: &Description, options: &PackageOptions) -> Result<Generated, Unable> {
     let options = &ikfast::completed(options)?;

@@ -112,15 +112,28 @@ def test_warnings_are_pythons_own():
         Robot.from_dh([("q1", 0, 1, 0)], convention="standard", tool=np.eye(3))
 
 
+INTERRUPTED = """
+import os, signal, threading, time
+from denavit import Robot
+
+robot = Robot("franka-panda")
+begun = time.perf_counter()
+robot.dynamics_explain()
+whole = time.perf_counter() - begun
+threading.Timer(whole / 10, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+begun = time.perf_counter()
+try:
+    robot.dynamics_explain()
+except KeyboardInterrupt:
+    print((time.perf_counter() - begun) / whole)
+"""
+
+
 def test_long_derivations_hear_signals():
-    wait = "import os, signal, threading, time; from denavit import Robot; robot = Robot('franka-panda'); "
-    send = "threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start(); begun = time.time()\n"
-    work = "try:\n    for k in range(40): robot.dynamics_explain()\nexcept KeyboardInterrupt: print(time.time() - begun)"
-    run = subprocess.run(
-        [sys.executable, "-c", wait + send + work], capture_output=True, text=True, check=True
-    )
+    run = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True)
     assert "PanicException" not in run.stderr
-    assert 0.2 < float(run.stdout) < 60.0  # a busy machine's threads wait for each other
+    # As a share of a derivation that nobody interrupts: heard within it, not behind it.
+    assert float(run.stdout) < 0.8
 
 
 def test_the_position_of_short_arms_is_looked_at():

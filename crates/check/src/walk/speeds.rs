@@ -98,9 +98,9 @@ impl Walk<'_> {
         }
     }
 
-    /// Rates that words give joint by joint, each by an ordinal or a number behind it or a name before it: `0.8 rad/s na primeira junta
-    /// e 0.5 rad/s na segunda`, `0.5 rad/s on joint 1`, `q1 at 10 °/s, q2 and q3 at rest`. Joints of which nothing is said keep their rates, and are still where words say
-    /// so.
+    /// Rates that words give joint by joint, each by an ordinal or a number behind it or a name before it: `0.8 rad/s na primeira
+    /// junta e 0.5 rad/s na segunda`, `0.5 rad/s on joint 1`, `q1 at 10 °/s, q2 and q3 at rest`. Joints of which nothing is said keep
+    /// their rates, and are still where words say so.
     fn told_one_by_one(&mut self, line: &str, kinds: &[JointKind]) -> bool {
         let all: Vec<Quantity> = runs(line).into_iter().flatten().collect();
         let quantities: Vec<&Quantity> = all.iter().filter(|q| q.unit.is_some()).collect();
