@@ -1,5 +1,5 @@
 
-/* All configurations of a goal; false if there is none. */
+/* The configurations of a goal; false if none is found. */
 IKFAST_API bool ComputeIk(
     const IkReal *eetrans,
     const IkReal *eerot,

@@ -104,7 +104,10 @@ impl<'a> Interface<'a> {
             format!("pfree: the values of these joints, counted from 0: {}.", given.join(", "))
         }));
         lines.extend([
-            "ComputeIk adds all configurations, angles from -pi to pi; limits are not looked at.".into(),
+            "ComputeIk adds the configurations of a goal, each once, angles from -pi to pi; limits are not looked at. These are all, \
+             and false says that the arm does not reach, but for goals at singular configurations or beside them, where there \
+             may be more: the interface has no place for the certificate that ik has in C and Rust."
+                .into(),
             "Where two joints turn against each other with the hand still, or one turns for nothing, the solution \
              is the whole family: GetFree names the joint that is free, and others follow it (fmul, foffset). Of a family that \
              is no straight line in the joint variables, one member is added."
