@@ -144,7 +144,7 @@ void function(const char *arm, const char *name, size_t angles, size_t inputs, s
 void inverse()
 {
     const std::vector<double> q = configurations<double>(6, 6);
-    const size_t width = 10, most = UR5_DOUBLE_C_IK_MAX;
+    const size_t width = 10, most = UR5_DOUBLE_C_SOLVE_MAX;
     std::vector<double> poses(12 * COUNT);
     for (size_t i = 0; i < COUNT; i++) {
         double own[6], pose[4][4];
@@ -171,9 +171,9 @@ void inverse()
         for (size_t k = 0; k < 12; k++) {
             pose[k] = poses[k * COUNT + i];
         }
-        ur5_double_c_ik_solution found[UR5_DOUBLE_C_IK_MAX];
-        ur5_double_c_ik_certificate certificate;
-        const int number = ur5_double_c_ik(pose, found, &certificate);
+        ur5_double_c_solve_solution found[UR5_DOUBLE_C_SOLVE_MAX];
+        ur5_double_c_solve_certificate certificate;
+        const int number = ur5_double_c_solve(pose, found, &certificate);
         bool is_same = number == (int)values[i] && (int)certificate == (int)values[COUNT + i];
         for (int s = 0; is_same && s < number; s++) {
             double nearest = HUGE_VAL;

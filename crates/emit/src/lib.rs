@@ -105,7 +105,8 @@ pub struct Library<'a> {
 
 /// A function that is no program, written out in the language of the library (C, Rust, IkFast; other languages leave it out).
 ///
-/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals.
+/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in C, `@fk_parameters@` for
+/// the last argument of a call of `fk`, with a comma before it, if that reads parameters.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Attachment {
     /// Its name, such as `inverse`.

@@ -2,6 +2,7 @@
 //! model in extended precision.
 
 use super::PackageOptions;
+use super::controller::solver_name;
 use super::forward::{ends, traced};
 use super::samples::{self, Sample};
 use super::words::text;
@@ -52,6 +53,8 @@ pub(super) struct Closed {
     ends: [String; 2],
     facts: Inverse,
     vectors: Vec<SolverVector>,
+    /// What the function is called.
+    name: &'static str,
 }
 
 impl Closed {
@@ -85,7 +88,7 @@ impl Closed {
             assumed,
             vectors: vectors.len(),
         };
-        Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors })
+        Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors, name: solver_name(options) })
     }
 
     /// What was derived.
@@ -113,6 +116,16 @@ impl Closed {
         &self.vectors
     }
 
+    /// Configurations whose poses are regular, and how many there are with the pose of each.
+    pub fn regular(&self) -> Vec<(Vec<f64>, usize)> {
+        let is_regular = |v: &&SolverVector| {
+            v.certificate == Certificate::Complete
+                && v.solutions.iter().all(|s| s.multiplicity == 1 && s.free == 0)
+        };
+        let known = |v: &SolverVector| Some((v.solutions.first()?.results.clone(), v.solutions.len()));
+        self.vectors.iter().filter(is_regular).filter_map(known).collect()
+    }
+
     /// What is known of it.
     pub fn facts(&self) -> Inverse {
         self.facts.clone()
@@ -125,8 +138,9 @@ impl Closed {
             all => format!(" ({})", all.join(", ")),
         };
         let mut lines = vec![format!(
-            "ik: closed form, at most {}{branches}. The code puts each into the forward model, and returns how far \
+            "{}: closed form, at most {}{branches}. The code puts each into the forward model, and returns how far \
              it is from the pose. A certificate says whether these are all.",
+            self.name,
             self.facts.at_most()
         )];
         lines.extend(self.condition());
@@ -221,7 +235,7 @@ impl Closed {
                 .into(),
         );
         SolverRoutine {
-            name: "ik".into(),
+            name: self.name.into(),
             about,
             solver: &self.solver,
             usual: self.usual.clone(),

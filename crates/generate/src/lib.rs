@@ -1,5 +1,6 @@
 //! Source code for one robot: what to emit, the words around it, and the vectors that its tests hold.
 
+mod controller;
 mod dynamics;
 mod forward;
 mod general;
@@ -13,6 +14,7 @@ mod words;
 pub use inverse::Inverse;
 pub use tree::generate_tree;
 
+use controller::Controller;
 use denavit::description::Description;
 use denavit::dynamics::{DynamicFunction, Loads, Masses, NoNumbers, NoProgram, Unknown};
 use denavit::forward::Proof;
@@ -24,7 +26,7 @@ use denavit_symbolic::Expr;
 use dynamics::Dynamic;
 use forward::Forward;
 use general::General;
-use ikfast::{Interface, Solver};
+use ikfast::Interface;
 use inverse::Closed;
 use std::fmt;
 use std::str::FromStr;
@@ -155,6 +157,13 @@ pub struct Function {
     pub divides_by: Vec<String>,
 }
 
+/// What finds all configurations with a pose.
+#[derive(Clone, Copy)]
+enum Solver<'a> {
+    Closed(&'a Closed),
+    General(&'a General),
+}
+
 /// Why nothing is generated.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Unable {
@@ -245,8 +254,6 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     } else {
         description
     };
-    let programs: Vec<Forward> =
-        with_one_pass(&options.functions).into_iter().filter_map(|w| Forward::new(d, w)).collect();
     let dynamic = Dynamic::new(d, &options.functions, options.masses, options.loads)?;
     let asked = options.functions.contains(&Wanted::Inverse);
     let (mut closed, mut general, mut refused) = (None, None, None);
@@ -259,6 +266,9 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
             Err(None) => refused = Some(why.to_string()),
         },
     }
+    let is_inverse = closed.is_some() || general.is_some();
+    let wanted = with_one_pass(&options.functions, is_inverse && controller::is_served(options));
+    let programs: Vec<Forward> = wanted.into_iter().filter_map(|w| Forward::new(d, w)).collect();
     let of_joints = programs.iter().map(|f| Function {
         wanted: f.wanted,
         count: f.program.count(),
@@ -268,7 +278,6 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     });
     let moving = dynamic.iter().flat_map(Dynamic::functions);
     let functions: Vec<Function> = of_joints.chain(moving).collect();
-    let is_inverse = closed.is_some() || general.is_some();
     if !is_inverse && (functions.is_empty() || is_interface) {
         return Ok(Generated { files: vec![], functions, inverse: None, refused });
     }
@@ -294,6 +303,12 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
             }
             Err(why) => return Ok(Generated { files: vec![], functions, inverse: None, refused: Some(why) }),
         }
+    }
+    if let (true, Some(solver)) = (controller::is_served(options), solver) {
+        let (more, values) = dynamic.as_ref().map_or((0, vec![]), |x| (x.variables.len(), x.values()));
+        let controller = Controller::new(d, solver, variables.len() + more, &values);
+        about.extend(controller.header());
+        attachments.push(controller.attachment());
     }
     if let Some(dynamic) = &dynamic {
         // Every function takes all variables and parameters of the library.
@@ -328,10 +343,11 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     Ok(Generated { files, functions, inverse, refused })
 }
 
-/// The functions asked for, and where pose and Jacobian are among them, both in one pass.
-fn with_one_pass(functions: &[Wanted]) -> Vec<Wanted> {
+/// The functions asked for, and where pose and Jacobian are among them, or something calls it, both in one pass.
+fn with_one_pass(functions: &[Wanted], is_called: bool) -> Vec<Wanted> {
     let has = |w| functions.contains(&w);
-    let is_one_more = has(Wanted::Pose) && has(Wanted::Jacobian) && !has(Wanted::JacobianAndPose);
+    let is_one_more =
+        (has(Wanted::Pose) && has(Wanted::Jacobian) || is_called) && !has(Wanted::JacobianAndPose);
     functions.iter().copied().chain(is_one_more.then_some(Wanted::JacobianAndPose)).collect()
 }
 

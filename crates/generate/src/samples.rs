@@ -4,7 +4,7 @@ use denavit::description::{Description, JointKind};
 use denavit::robot::Robot;
 use denavit_emit::Vector;
 use denavit_program::{Extended, Program};
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::{Expr, Rational, Symbol};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Seed of the random ones.
@@ -51,7 +51,22 @@ pub(super) fn size(samples: &[Sample]) -> f64 {
 /// Values of the parameters: those of the robot file, and others where it has none.
 pub(super) fn parameters(d: &Description) -> Vec<f64> {
     let parameters = d.parameters.iter().enumerate();
-    parameters.map(|(k, p)| p.number().unwrap_or(0.25 + 0.0625 * k as f64)).collect()
+    parameters.map(|(k, p)| p.number().unwrap_or_else(|| stand_in(k))).collect()
+}
+
+/// The description with these values in place of its parameters' missing ones.
+pub(super) fn valued(d: &Description) -> Description {
+    let mut new = d.clone();
+    for (k, p) in new.parameters.iter_mut().enumerate() {
+        let exact = || Rational::from_f64(stand_in(k)).map(Expr::from);
+        p.value = p.value.or_else(exact);
+    }
+    new
+}
+
+/// For the parameter with this number.
+fn stand_in(number: usize) -> f64 {
+    0.25 + 0.0625 * number as f64
 }
 
 /// Zero, quarter turns, and random configurations inside (−π, π) and half a metre.

@@ -24,7 +24,7 @@ pub(super) fn attachment(general: &General, tables: &Tables, is_tested: bool) ->
     let about: String = general.about.iter().map(|line| wrapped(" * ", line, " ")).collect();
     let about = format!("/*\n{}\n */", about.trim_end());
     Attachment {
-        name: "ik".into(),
+        name: "solve".into(),
         declarations: include_str!("declarations.h").replace("@about@", &about),
         definitions: include_str!("head.c").to_string() + &constants(general, tables) + &PARTS.concat(),
         test: if is_tested { test(general) } else { String::new() },
@@ -118,7 +118,7 @@ fn matrix<R: AsRef<[f64]>>(name: &str, rows: &[R]) -> String {
 fn test(general: &General) -> String {
     let vectors = &general.vectors;
     if vectors.is_empty() {
-        return "\n/* There is no pose at which rounding leaves no doubt. */\nstatic void test_ik(void)\n{\n}\n".into();
+        return "\n/* There is no pose at which rounding leaves no doubt. */\nstatic void test_solve(void)\n{\n}\n".into();
     }
     let poses: Vec<Vec<f64>> = vectors.iter().map(|v| v.pose.concat()).collect();
     let mut known: Vec<Vec<f64>> = vectors.iter().flat_map(|v| v.solutions.iter().cloned()).collect();
@@ -135,7 +135,7 @@ fn test(general: &General) -> String {
     let first = inner(first.iter().map(usize::to_string).collect());
     let has_given = inner(vectors.iter().map(|v| u8::from(v.configuration.is_some()).to_string()).collect());
     let angles: Vec<String> = general.is_angle.iter().map(|&is| u8::from(is).to_string()).collect();
-    include_str!("test_ik.c")
+    include_str!("test_solve.c")
         .replace("@count@", &vectors.len().to_string())
         .replace("@known_count@", &known.len().to_string())
         .replace("@poses@", &table(&poses))

@@ -108,6 +108,12 @@ impl General {
         self.facts.clone()
     }
 
+    /// Configurations, and how many there are with the pose of each.
+    pub fn regular(&self) -> Vec<(Vec<f64>, usize)> {
+        let known = |v: &Vector| Some((v.configuration.clone()?, v.solutions.len()));
+        self.vectors.iter().filter_map(known).collect()
+    }
+
     /// Lines for the head of each file.
     pub fn header(&self) -> Vec<String> {
         let mut lines = vec![format!(

@@ -273,10 +273,10 @@ static int ik_nearest_rotation(double r[3][3])
         + r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]) > 0.0;
 }
 
-int @name@_ik(
+int @name@_solve(
     const double pose[12],
-    @name@_ik_solution solutions[@NAME@_IK_MAX],
-    @name@_ik_certificate *certificate)
+    @name@_solve_solution solutions[@NAME@_SOLVE_MAX],
+    @name@_solve_certificate *certificate)
 {
     ik_work work;
     ik_rigid goal;
@@ -292,7 +292,7 @@ int @name@_ik(
     }
     if (!is_number || !ik_nearest_rotation(goal.r)) {
         if (certificate) {
-            *certificate = @NAME@_IK_NOT_A_POSE;
+            *certificate = @NAME@_SOLVE_NOT_A_POSE;
         }
         return 0;
     }
@@ -304,7 +304,7 @@ int @name@_ik(
     for (int k = 0; k < IK_SPLITS && last == IK_UNCERTAIN; k++) {
         last = ik_solve_split(&ik_splits[k], 1, &goal, &work);
     }
-    const int count = work.count < @NAME@_IK_MAX ? work.count : @NAME@_IK_MAX;
+    const int count = work.count < @NAME@_SOLVE_MAX ? work.count : @NAME@_SOLVE_MAX;
     for (int from = 0; from < count; from += IK_LANES) {
         ik_values values;
         double singular[IK_LANES];
@@ -318,7 +318,7 @@ int @name@_ik(
         ik_singular_values(&values, singular);
         for (int l = 0; l < IK_LANES && from + l < count; l++) {
             const ik_found *found = &work.found[from + l];
-            @name@_ik_solution *out = &solutions[from + l];
+            @name@_solve_solution *out = &solutions[from + l];
             double axes[6];
             for (int i = 0; i < 6; i++) {
                 const double *value = found->values[i];
@@ -336,11 +336,11 @@ int @name@_ik(
     }
     if (certificate) {
         if (work.count > count) {
-            *certificate = @NAME@_IK_UNDECIDED;
+            *certificate = @NAME@_SOLVE_UNDECIDED;
         } else if (!is_isolated || last == IK_PAIRS) {
-            *certificate = @NAME@_IK_NEAR_DOUBLE_ROOT;
+            *certificate = @NAME@_SOLVE_NEAR_DOUBLE_ROOT;
         } else {
-            *certificate = last == IK_CERTIFIED ? @NAME@_IK_COMPLETE : @NAME@_IK_UNDECIDED;
+            *certificate = last == IK_CERTIFIED ? @NAME@_SOLVE_COMPLETE : @NAME@_SOLVE_UNDECIDED;
         }
     }
     return count;

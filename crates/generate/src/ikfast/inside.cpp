@@ -132,17 +132,17 @@ static bool all(
     const IkReal *pfree,
     ikfast::IkSolutionListBase<IkReal> &solutions)
 {
-    @name@_ik_solution found[@NAME@_IK_MAX];
-    @name@_ik_certificate certificate;
+    @name@_solve_solution found[@NAME@_SOLVE_MAX];
+    @name@_solve_certificate certificate;
     double goal[@goal_size@];
     solutions.Clear();
     read_goal(eetrans, eerot, goal);
-@read_given@    const int count = @name@_ik(goal, found, &certificate);
+@read_given@    const int count = @name@_solve(goal, found, &certificate);
 #ifdef IKFAST_ASSERT
-    IKFAST_ASSERT(certificate != @NAME@_IK_NOT_A_POSE);
+    IKFAST_ASSERT(certificate != @NAME@_SOLVE_NOT_A_POSE);
 #endif
     std::vector<ikfast::IkSingleDOFSolutionBase<IkReal> > joints(@n@);
-    member families[@NAME@_IK_MAX];
+    member families[@NAME@_SOLVE_MAX];
     int known = 0;
     for (int s = 0; s < count; s++) {
         member &own = families[known];

@@ -6,10 +6,9 @@
 mod kind;
 mod test;
 
-use super::general::{General, MAX};
-use super::inverse::Closed;
+use super::general::MAX;
 use super::tables::wrapped;
-use super::{PackageOptions, Unable, Wanted};
+use super::{PackageOptions, Solver, Unable, Wanted};
 use denavit::description::{Description, JointKind};
 use denavit::inverse::derivation::{Difference, Motion, NormalChain, Unknown};
 use denavit::robot::Robot;
@@ -32,13 +31,6 @@ pub(super) fn completed(options: &PackageOptions) -> Result<PackageOptions, Unab
         (new.functions, new.fixed) = (functions, true);
     }
     Ok(new)
-}
-
-/// The inverse function behind the interface.
-#[derive(Clone, Copy)]
-pub(super) enum Solver<'a> {
-    Closed(&'a Closed),
-    General(&'a General),
 }
 
 /// What is known of an arm behind the interface.

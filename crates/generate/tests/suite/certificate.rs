@@ -24,9 +24,9 @@ int main(void) {
     for (int k = 0; scanf("%63s", text) == 1; k++) {
         pose[k % 12] = strtod(text, NULL);
         if (k % 12 == 11) {
-            arm_ik_solution found[ARM_IK_MAX];
-            arm_ik_certificate certificate;
-            const int count = arm_ik(pose, @parameters@found, &certificate);
+            arm_solve_solution found[ARM_SOLVE_MAX];
+            arm_solve_certificate certificate;
+            const int count = arm_solve(pose, @parameters@found, &certificate);
             printf("%d %d", (int)certificate, count);
             for (int s = 0; s < count; s++) {
                 printf(" %u", found[s].free);

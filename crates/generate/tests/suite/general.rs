@@ -124,7 +124,7 @@ static const double known[][6] = {
 /* All configurations, those of pose v from first[v] on. */
 static const int first[] = {@first@};
 
-static double nearest(const arm_ik_solution *found, int count, const double *q)
+static double nearest(const arm_solve_solution *found, int count, const double *q)
 {
     static const int is_angle[6] = {@angles@};
     double least = HUGE_VAL;
@@ -144,11 +144,11 @@ int main(void)
     const int all = (int)(sizeof poses / sizeof *poses);
     int failures = 0, uncertain = 0;
     for (int v = 0; v < all; v++) {
-        arm_ik_solution found[ARM_IK_MAX];
-        arm_ik_certificate certificate = ARM_IK_UNDECIDED;
-        const int count = arm_ik(poses[v], found, &certificate);
+        arm_solve_solution found[ARM_SOLVE_MAX];
+        arm_solve_certificate certificate = ARM_SOLVE_UNDECIDED;
+        const int count = arm_solve(poses[v], found, &certificate);
         int is_same = count == first[v + 1] - first[v];
-        uncertain += certificate != ARM_IK_COMPLETE;
+        uncertain += certificate != ARM_SOLVE_COMPLETE;
         for (int e = first[v]; e < first[v + 1]; e++) {
             is_same = is_same && nearest(found, count, known[e]) <= 1e-7;
         }

@@ -140,7 +140,7 @@ static int families(const double *q, int first, int second, int &is_wrong)
 }
 } // namespace plugin
 
-#if defined(INLINE) || defined(FUSED) || defined(DENAVIT_INLINE) || defined(DENAVIT_FUSED) || defined(ARM_IK_MAX)
+#if defined(INLINE) || defined(FUSED) || defined(DENAVIT_INLINE) || defined(DENAVIT_FUSED) || defined(ARM_SOLVE_MAX)
 #error "macros leak"
 #endif
 

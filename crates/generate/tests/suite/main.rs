@@ -2,6 +2,7 @@
 
 mod attack;
 mod certificate;
+mod conformance;
 mod general;
 mod ikfast;
 mod library;

@@ -27,7 +27,7 @@ static const int ik_has_given[IK_VECTORS] = {
 static const double ik_unit = @unit@;
 
 /* How far the nearest of the solutions is. */
-static double ik_nearest(const @name@_ik_solution *found, int count, const double *known)
+static double ik_nearest(const @name@_solve_solution *found, int count, const double *known)
 {
     static const int is_angle[6] = {@angles@};
     const double turn = 6.283185307179586;
@@ -48,14 +48,14 @@ static double ik_nearest(const @name@_ik_solution *found, int count, const doubl
     return nearest;
 }
 
-static void test_ik(void)
+static void test_solve(void)
 {
     for (int v = 0; v < IK_VECTORS; v++) {
-        @name@_ik_solution found[@NAME@_IK_MAX];
-        @name@_ik_certificate certificate = @NAME@_IK_UNDECIDED;
-        const int count = @name@_ik(ik_poses[v], found, &certificate);
+        @name@_solve_solution found[@NAME@_SOLVE_MAX];
+        @name@_solve_certificate certificate = @NAME@_SOLVE_UNDECIDED;
+        const int count = @name@_solve(ik_poses[v], found, &certificate);
         const int expected = ik_first[v + 1] - ik_first[v];
-        if (count != expected || certificate != @NAME@_IK_COMPLETE) {
+        if (count != expected || certificate != @NAME@_SOLVE_COMPLETE) {
             printf("ik, pose %d: %d solutions, expected %d", v, count, expected);
             printf("; certificate %d\n", (int)certificate);
             failures++;
@@ -83,7 +83,7 @@ static void test_ik(void)
             const double unit = k % 4 == 3 ? ik_unit : 1.0;
             rounded[k] = floor(1e6 * ik_poses[v][k] / unit + 0.5) / 1e6 * unit;
         }
-        const int again = @name@_ik(rounded, found, &certificate);
+        const int again = @name@_solve(rounded, found, &certificate);
         for (int e = ik_first[v]; e < ik_first[v + 1]; e++) {
             if (!(ik_nearest(found, again, ik_known[e]) <= 1e-2)) {
                 printf("ik, pose %d of six decimals: solution %d is not found\n", v, e - ik_first[v]);
@@ -91,7 +91,7 @@ static void test_ik(void)
             }
         }
         rounded[0] += 1.0;
-        if (@name@_ik(rounded, found, &certificate) != 0 || certificate != @NAME@_IK_NOT_A_POSE) {
+        if (@name@_solve(rounded, found, &certificate) != 0 || certificate != @NAME@_SOLVE_NOT_A_POSE) {
             printf("ik, pose %d: what is no rotation has solutions\n", v);
             failures++;
         }

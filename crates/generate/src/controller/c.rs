@@ -1,0 +1,214 @@
+//! The functions in C99.
+
+use super::Controller;
+use crate::Solver;
+use crate::general::MAX;
+use crate::tables::{list, wrapped};
+use denavit::inverse::Goal;
+use denavit_emit::Attachment;
+
+/// Values of given joints that are tried where the nearest configuration is searched for.
+const SAMPLES: usize = 33;
+
+/// The functions with their test.
+pub(super) fn attachment(own: &Controller) -> Attachment {
+    let goal = match own.goal {
+        Goal::Pose => include_str!("c/goal_pose.c"),
+        Goal::Position => include_str!("c/goal_position.c"),
+        Goal::PositionAndAxis => include_str!("c/goal_axis.c"),
+    };
+    let definitions = include_str!("c/answer.c").replace("@goal@", goal)
+        + include_str!("c/solve_closed.c")
+        + &include_str!("c/singular.c").replace("@neighbour@", include_str!("c/neighbour.c"))
+        + &copies(own)
+        + include_str!("c/nearest.c");
+    Attachment {
+        name: "ik".into(),
+        declarations: own.filled(include_str!("c/declarations.h")),
+        definitions: own.filled(&definitions),
+        test: if own.known.is_empty() {
+            "\nstatic void test_ik(void)\n{\n}\n".into()
+        } else {
+            own.filled(include_str!("c/test.c"))
+        },
+        ..Attachment::default()
+    }
+}
+
+/// The table of further motions after which all links are back.
+fn copies(own: &Controller) -> String {
+    let copies = &own.turning.copies;
+    let none = vec![vec![0.0; own.joints()]];
+    let rows = if copies.is_empty() { &none } else { copies };
+    format!(
+        "\nenum {{\n    /* Motions of joints with gears after which all links are back, besides those in turns of one joint. */\n    \
+         ANSWER_COPIES = {}\n}};\n\nstatic const double answer_copies[{}][ANSWER_JOINTS] = {{\n{}\n}};\n",
+        copies.len(),
+        rows.len(),
+        crate::tables::table(rows)
+    )
+}
+
+impl Controller<'_> {
+    /// A template with the facts of the arm in it.
+    fn filled(&self, template: &str) -> String {
+        let n = self.joints();
+        let numbers = |f: &dyn Fn(usize) -> f64| row(&(0..n).map(f).collect::<Vec<_>>());
+        let flags = |f: &dyn Fn(usize) -> bool| {
+            let all: Vec<&str> = (0..n).map(|j| if f(j) { "1" } else { "0" }).collect();
+            format!("{{{}}}", all.join(", "))
+        };
+        let angle = |j: usize, x: f64| if self.is_angle[j] { x } else { 0.0 };
+        let limit =
+            |j: usize, k: usize| self.limits[j].map_or([f64::NEG_INFINITY, f64::INFINITY][k], |l| l[k]);
+        let has_given = !self.given.is_empty();
+        let (g, p) = (self.given.len(), self.has_parameters);
+        let given_line = format!("\n    const double given[{g}],");
+        let parameters_line = "\n    const @name@_parameters *parameters,";
+        let either = |is: bool, text: &str| if is { text.to_string() } else { String::new() };
+        let given: Vec<String> = self.given.iter().map(usize::to_string).collect();
+        let (max, branch, found_branch) = match self.solver {
+            Solver::Closed(_) => (
+                "@NAME@_SOLVE_MAX".to_string(),
+                "The number of its branch, whose label is in @name@_solve_branches; -1 if it is none's.",
+                "found[s].branch",
+            ),
+            Solver::General(_) => (MAX.to_string(), "By elimination there are no branches: -1.", "-1"),
+        };
+        let read = match self.goal {
+            Goal::Pose => "rotation (no unit) and position (m)",
+            Goal::Position => "their last column, the position (m)",
+            Goal::PositionAndAxis => {
+                "their last two columns: the direction of the z axis (no unit) and the position (m)"
+            }
+        };
+        let words = |lines: &str| wrapped(" * ", lines, "").trim_end().trim_start_matches(" * ").to_string();
+        let read = if has_given {
+            let names = self.given.iter().map(|j| format!("q[{j}]")).collect::<Vec<_>>().join(", ");
+            format!("{read};\n * then the values of {names}")
+        } else {
+            read.to_string()
+        };
+        let nearest = words(if has_given {
+            "The joints in excess are free: it starts from the previous configuration, and from solutions at 33 of their values if \
+             that leads farther than 0.1 rad away, and moves the arm with its hand still until no member nearby is nearer. SOLVED \
+             then says that q has the pose, and not that nothing else is nearer; UNDECIDED that none was found."
+        } else {
+            "Of families the member that is nearest is found by moving the arm with its hand still. The status is that of \
+             @name@_ik, or OUTSIDE_LIMITS; with FAMILY and UNDECIDED a nearer one may not be known."
+        });
+        let plain = self.turning.windows.iter().all(|w| !w.is_finite() || *w == std::f64::consts::TAU);
+        let range =
+            if plain { "in (-pi, pi]" } else { "in the range in which all links come back, around 0" };
+        let columns: &[usize] = match self.goal {
+            Goal::Pose => &[0, 1, 2, 3],
+            Goal::Position => &[3],
+            Goal::PositionAndAxis => &[2, 3],
+        };
+        let places: Vec<(usize, usize)> = (0..3).flat_map(|i| columns.iter().map(move |&j| (i, j))).collect();
+        let mut flatten = String::new();
+        for (k, (i, j)) in places.iter().enumerate() {
+            flatten.push_str(&format!("    values[{k}] = goal[{i}][{j}];\n"));
+        }
+        if has_given {
+            flatten
+                .push_str(&format!("    memcpy(values + {}, given, {g} * sizeof *given);\n", places.len()));
+        }
+        let given_check = format!(
+            "\n    if (!answer_is_finite(given, {g})) {{\n        status = @NAME@_IK_NOT_FINITE;\n    }}"
+        );
+        let twist =
+            if self.is_full { include_str!("c/twist.c").to_string() } else { "        return 0;".into() };
+        let twist = twist.trim_end();
+        let search =
+            if has_given { include_str!("c/search_given.c") } else { include_str!("c/search_plain.c") };
+        let spread = if has_given { include_str!("c/spread.c") } else { "" };
+        // What a pose is off is what an arm that reaches few of them may miss it by: there it is passed on as it came.
+        let solve_goal = if self.is_full || self.goal != Goal::Pose { "goal" } else { "pose" };
+        let configurations: Vec<&Vec<f64>> = self.known.iter().map(|k| &k.0).collect();
+        let counts: Vec<usize> = self.known.iter().map(|k| k.1).collect();
+        let parameters_test = format!(
+            "\n    const @name@_parameters values = {{\n{}    }};\n    const @name@_parameters *parameters = &values;",
+            wrapped(
+                "        ",
+                &self.parameters.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", "),
+                ""
+            )
+        );
+        let given_test: String = std::iter::once(format!("\n        double given[{g}];"))
+            .chain(self.given.iter().enumerate().map(|(k, j)| format!("\n        given[{k}] = q[{j}];")))
+            .collect();
+        let wrong = match self.goal {
+            Goal::Position => "",
+            Goal::Pose | Goal::PositionAndAxis => {
+                "        controlled(v, @name@_ik(wrong@given_passed@@parameters_passed@, &result) == @NAME@_IK_NOT_A_ROTATION\n            \
+                 && result.count == 0 && result.off > 0.005, \"what is no rotation is taken for one\");\n"
+            }
+        };
+        template
+            .replace("@search@", search)
+            .replace("@spread@", spread)
+            .replace("@wrong@", wrong)
+            .replace("@given_test@", &either(has_given, &given_test))
+            .replace("@parameters_test@", &either(p, &parameters_test))
+            .replace("@configurations@", &crate::tables::table(&configurations))
+            .replace("@solutions@", &crate::tables::integers(&counts))
+            .replace("@count@", &self.known.len().to_string())
+            .replace("@twist@", twist)
+            .replace(
+                "@or_twist@",
+                if self.is_full {
+                    ", or the\n   goal turned and shifted a little if there is none"
+                } else {
+                    ""
+                },
+            )
+            .replace("@about@", "")
+            .replace("@flatten@", &flatten)
+            .replace("@values@", &(places.len() + g).to_string())
+            .replace("@solve_goal@", solve_goal)
+            .replace("@found_branch@", found_branch)
+            .replace("@branch@", branch)
+            .replace("@max@", &max)
+            .replace("@read@", &read)
+            .replace("@range@", range)
+            .replace("@nearest@", &nearest)
+            .replace("@given_check@", &either(has_given, &given_check))
+            .replace("@given_declaration@", &either(has_given, &given_line))
+            .replace("@given_local@", &either(has_given, &given_line))
+            .replace("@given_passed@", if has_given { ", given" } else { "" })
+            .replace("@given_count@", &g.to_string())
+            .replace("@given@", &format!("{{{}}}", given.join(", ")))
+            .replace("@samples@", &SAMPLES.to_string())
+            .replace("@parameters_declaration@", &either(p, parameters_line))
+            .replace("@parameters_local@", &either(p, parameters_line))
+            .replace("@parameters_given@", &either(p, ", const @name@_parameters *parameters"))
+            .replace("@parameters_passed@", &either(p, ", parameters"))
+            .replace("@parameters_unread@", &either(p, "\n    (void)parameters;"))
+            .replace("@size@", &format!("{:?}", self.size))
+            .replace("@units@", &numbers(&|j| if self.is_angle[j] { 1.0 } else { self.size }))
+            .replace("@periods@", &numbers(&|j| angle(j, self.turning.periods[j])))
+            .replace("@windows@", &numbers(&|j| angle(j, self.turning.windows[j])))
+            .replace("@is_given@", &flags(&|j| self.is_given(j)))
+            .replace("@lower@", &limits(n, |j| limit(j, 0)))
+            .replace("@upper@", &limits(n, |j| limit(j, 1)))
+            .replace("@columns@", &(6 * n).to_string())
+            .replace("@variables@", &self.variables.to_string())
+            .replace("@n@", &n.to_string())
+    }
+}
+
+/// Numbers in braces on a line or more.
+fn row(values: &[f64]) -> String {
+    list(values, 4).trim_start().to_string()
+}
+
+fn limits(joints: usize, of: impl Fn(usize) -> f64) -> String {
+    let one = |x: f64| match x {
+        f64::INFINITY => "HUGE_VAL".to_string(),
+        f64::NEG_INFINITY => "-HUGE_VAL".into(),
+        x => format!("{x:?}"),
+    };
+    let all: Vec<String> = (0..joints).map(of).map(one).collect();
+    format!("{{{}}}", all.join(", "))
+}

@@ -1,0 +1,340 @@
+//! Generated inverse kinematics beside the library's: the same solutions and families, with a status that says no more than
+//! is so, at regular, singular, nearly singular and rounded poses.
+
+use crate::common::{Random, robot, share};
+use denavit::geometry::Transform;
+use denavit::inverse::{Answer, Goal, InverseKinematics, InverseOptions};
+use denavit::space::JointSpace;
+use denavit::{Description, Robot};
+use denavit_emit::{Language, Precision};
+use denavit_generate::{PackageOptions, Wanted, generate};
+use std::f64::consts::FRAC_PI_2;
+use std::fmt::Write;
+use std::fs;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Arms of different structure, with the joints that are given where they have too many, and the largest part of singular poses
+/// that may stay undecided.
+const ARMS: [&str; 12] = [
+    "planar-3r",
+    "scara",
+    "articulated-3r",
+    "stanford",
+    "puma560",
+    "staubli-rx90",
+    "ur5",
+    "techman-tm5-700",
+    "kuka-kr16-2",
+    "gantry-wrist",
+    "franka-panda",
+    "fanuc-crx10ia-l",
+];
+
+const SOLVED: u32 = 0;
+const NO_SOLUTION: u32 = 1;
+const FAMILY: u32 = 2;
+const UNDECIDED: u32 = 3;
+
+/// Reads poses with the values of given joints, a line each; writes status, count, and for each solution its dimension and joints.
+const DRIVER: &str = r#"
+#include "arm.h"
+#include <stdio.h>
+#include <stdlib.h>
+int main(void) {
+    double pose[4][4] = {{0.0}};
+    double given[8] = {0.0};
+    char text[64];
+    (void)given;
+    for (int k = 0; scanf("%63s", text) == 1; k = (k + 1) % @width@) {
+        if (k < 12) {
+            pose[k / 4][k % 4] = strtod(text, NULL);
+        } else {
+            given[k - 12] = strtod(text, NULL);
+        }
+        if (k == @width@ - 1) {
+            arm_ik_result result;
+            const arm_ik_status status = arm_ik(pose, @given@&result);
+            printf("%d %d", (int)status, result.count);
+            for (int s = 0; s < result.count; s++) {
+                printf(" %d", result.solutions[s].dimension);
+                for (int j = 0; j < @n@; j++) {
+                    printf(" %.17g", result.solutions[s].q[j]);
+                }
+            }
+            printf("\n");
+        }
+    }
+    return 0;
+}
+"#;
+
+/// An arm whose functions were compiled.
+struct Arm {
+    name: &'static str,
+    robot: Robot<f64>,
+    space: JointSpace,
+    solver: InverseKinematics,
+    given: Vec<usize>,
+    folder: PathBuf,
+}
+
+/// What the code answered.
+struct Coded {
+    status: u32,
+    isolated: Vec<Vec<f64>>,
+    members: Vec<Vec<f64>>,
+}
+
+impl Arm {
+    fn new(name: &'static str, d: &Description) -> Arm {
+        let options = PackageOptions {
+            language: Language::C,
+            functions: vec![Wanted::Inverse],
+            inverse: InverseOptions { goal: Goal::Pose, given: None },
+            precision: Precision::Double,
+            name: Some("arm".into()),
+            masses: None,
+            loads: denavit::dynamics::Loads::default(),
+            fixed: true,
+        };
+        let generated = generate(d, &options).expect("parameters have values");
+        let facts = generated.inverse.unwrap_or_else(|| panic!("{name}: {:?}", generated.refused));
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conformance-{name}"));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("it can be made");
+        for file in &generated.files {
+            fs::write(folder.join(&file.path), &file.text).expect("it can be written");
+        }
+        let robot = Robot::numeric(d).expect("parameters have values");
+        let names: Vec<_> = d.variables().iter().map(|v| v.symbol).collect();
+        let given: Vec<usize> =
+            facts.given.iter().filter_map(|s| names.iter().position(|n| n == s)).collect();
+        let driver = DRIVER
+            .replace("@width@", &(12 + given.len()).to_string())
+            .replace("@given@", if given.is_empty() { "" } else { "given, " })
+            .replace("@n@", &robot.joints.to_string());
+        fs::write(folder.join("driver.c"), driver).expect("it can be written");
+        let built = Command::new("cc")
+            .args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "driver.c", "-lm", "-o", "driver"])
+            .current_dir(&folder)
+            .output()
+            .expect("there is a compiler");
+        assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+        let inverse = InverseOptions { goal: Goal::Pose, given: Some(given.clone()) };
+        let solver = InverseKinematics::new(d, &inverse).expect("the arm can be solved");
+        let space = JointSpace::new(d, &robot);
+        Arm { name, robot, space, solver, given, folder }
+    }
+
+    fn coded(&self, poses: &[(Transform<f64>, Vec<f64>)]) -> Vec<Coded> {
+        let mut text = String::new();
+        for (pose, given) in poses {
+            let m = pose.matrix();
+            (0..12).for_each(|k| write!(text, "{:e} ", m[k / 4][k % 4]).expect("text"));
+            given.iter().for_each(|x| write!(text, "{x:e} ").expect("text"));
+            text.push('\n');
+        }
+        let input = self.folder.join("poses");
+        fs::write(&input, text).expect("it can be written");
+        let input = fs::File::open(input).expect("it is there");
+        let output = Command::new(self.folder.join("driver")).stdin(input).output().expect("it runs");
+        let text = String::from_utf8_lossy(&output.stdout);
+        let all: Vec<Coded> = text.lines().map(|line| self.line(line)).collect();
+        assert_eq!(all.len(), poses.len(), "{}: a line a pose", self.name);
+        all
+    }
+
+    fn line(&self, line: &str) -> Coded {
+        let numbers: Vec<f64> = line.split(' ').map(|x| x.parse().expect("a number")).collect();
+        let (mut isolated, mut members) = (vec![], vec![]);
+        for s in numbers[2..].chunks(self.robot.joints + 1) {
+            if s[0] > 0.0 { members.push(s[1..].to_vec()) } else { isolated.push(s[1..].to_vec()) }
+        }
+        Coded { status: numbers[0] as u32, isolated, members }
+    }
+
+    /// How far the hand is from a pose, lengths by the arm's size.
+    fn missed(&self, pose: &Transform<f64>, q: &[f64]) -> f64 {
+        let (a, b) = (self.robot.pose(q).matrix(), pose.matrix());
+        let size = |k: usize| if k % 4 == 3 { self.space.length() } else { 1.0 };
+        (0..12).map(|k| (a[k / 4][k % 4] - b[k / 4][k % 4]).abs() / size(k)).fold(0.0, f64::max)
+    }
+
+    /// Whether two configurations are the same, or what lies between them has the pose, too: of roots that come together one
+    /// knows where they are to the root of rounding.
+    fn is_same(&self, pose: &Transform<f64>, a: &[f64], b: &[f64], off: f64) -> bool {
+        let apart = self.space.distance(a, b);
+        let way = self.space.moved(a, b);
+        let between = |part: f64| a.iter().zip(&way).map(|(x, d)| x + part * d).collect::<Vec<f64>>();
+        apart <= 1e-6 + 1e4 * off
+            || apart <= 0.02
+                && [0.25, 0.5, 0.75].iter().all(|&t| self.missed(pose, &between(t)) <= 1e-9 + off)
+    }
+
+    /// What differs between the two answers to a pose that is off by `off` from that of q.
+    fn fault(
+        &self,
+        pose: &Transform<f64>,
+        q: &[f64],
+        off: f64,
+        coded: &Coded,
+        known: &Answer,
+    ) -> Option<String> {
+        let own = || coded.isolated.iter().chain(&coded.members);
+        if let Some(s) = own().find(|s| self.missed(pose, s) > 1e-8 + 20.0 * off) {
+            return Some(format!("{s:?} misses the pose by {:e}", self.missed(pose, s)));
+        }
+        // Nothing that the library knows is missing.
+        let missing = known.solutions.iter().find(|s| {
+            let is_regular = s.multiplicity == 1 && s.guard > 1e-4;
+            let is_there = own().any(|t| self.is_same(pose, &s.q, t, off));
+            !is_there && (is_regular || matches!(coded.status, SOLVED | NO_SOLUTION))
+        });
+        if let Some(s) = missing {
+            return Some(format!("status {}: {:?} is missing (guard {:e})", coded.status, s.q, s.guard));
+        }
+        if matches!(coded.status, SOLVED | NO_SOLUTION) {
+            if !own().any(|t| self.is_same(pose, q, t, off)) {
+                return Some(format!("status {}: its own configuration is missing", coded.status));
+            }
+            if let (false, Some(f)) = (known.families.is_empty(), known.families.first()) {
+                return Some(format!(
+                    "status {}: there is a family through {:?}",
+                    coded.status, f.representative.q
+                ));
+            }
+        }
+        // Nothing is there beyond what the library knows.
+        if known.is_complete() {
+            let extra = coded.isolated.iter().find(|s| {
+                let is_known = known.solutions.iter().any(|t| self.is_same(pose, &t.q, s, off));
+                let is_member = || {
+                    known
+                        .families
+                        .iter()
+                        .any(|f| self.solver.family_of(pose, known, s).is_some() || !f.is_affine)
+                };
+                !is_known && !is_member()
+            });
+            if let Some(s) = extra {
+                return Some(format!("status {}: {s:?} is one more than the library knows", coded.status));
+            }
+        }
+        if coded.status == FAMILY && known.families.is_empty() && known.is_complete() {
+            return Some(format!("a family through {:?}, which the library does not know", coded.members[0]));
+        }
+        None
+    }
+}
+
+/// Regular configurations; with joints at multiples of a quarter turn; beside these.
+fn configurations(arm: &Arm, counts: [usize; 3]) -> [Vec<Vec<f64>>; 3] {
+    let mut random = Random(0x23);
+    let angle = arm.space.is_angle.clone();
+    let size = arm.space.length();
+    let regular =
+        |r: &mut Random, j: usize| if angle[j] { 6.2 * r.unit() - 3.1 } else { size * (0.1 + r.unit()) };
+    let mut list = |count: usize, value: &mut dyn FnMut(&mut Random, usize) -> f64| -> Vec<Vec<f64>> {
+        (0..count).map(|_| (0..angle.len()).map(|j| value(&mut random, j)).collect()).collect()
+    };
+    let quarter = |r: &mut Random| FRAC_PI_2 * (4.0 * r.unit()).floor() - FRAC_PI_2;
+    let some = |r: &mut Random, j: usize, away: f64| {
+        // Half of the joints at quarter turns, or all of them.
+        if angle[j] && r.unit() < 0.7 { quarter(r) + away * (2.0 * r.unit() - 1.0) } else { regular(r, j) }
+    };
+    [
+        list(counts[0], &mut |r, j| regular(r, j)),
+        list(counts[1], &mut |r, j| some(r, j, 0.0)),
+        list(counts[2], &mut |r, j| {
+            let away = 10_f64.powf(-3.0 - 8.0 * r.unit());
+            some(r, j, away)
+        }),
+    ]
+}
+
+fn check(name: &'static str) {
+    let arm = Arm::new(name, &robot(name));
+    let soak = [share(10_000, 300), share(2_000, 100), share(2_000, 100), share(1_000, 50)];
+    let [regular, singular, beside] = configurations(&arm, [soak[0], soak[1], soak[2]]);
+    let mut faults: Vec<String> = vec![];
+    let mut table = vec![];
+    let mut judge = |kind: &str, all: &[Vec<f64>], off: f64| {
+        let unit = off.max(f64::MIN_POSITIVE);
+        let round = |x: f64, by: f64| if off == 0.0 { x } else { (x / by / unit).round() * unit * by };
+        let poses: Vec<(Transform<f64>, Vec<f64>)> = all
+            .iter()
+            .map(|q| {
+                let m = arm.robot.pose(q).matrix();
+                let length = arm.space.length();
+                let r = std::array::from_fn(|i| std::array::from_fn(|j| round(m[i][j], 1.0)));
+                let t = denavit::geometry::Vector(std::array::from_fn(|i| round(m[i][3], length)));
+                let rotation = denavit::geometry::Rotation::from_rows(r);
+                let given = arm.given.iter().map(|&j| q[j]).collect();
+                (Transform::from_rotation_translation(rotation, t), given)
+            })
+            .collect();
+        let coded = arm.coded(&poses);
+        let mut statuses = [0_usize; 7];
+        let mut known: Vec<Answer> = vec![];
+        if arm.given.is_empty() {
+            let poses: Vec<_> = poses.iter().map(|p| p.0).collect();
+            known = arm.solver.solve_all(&poses, &[], NonZero::<usize>::MIN);
+        } else {
+            known.extend(poses.iter().map(|(pose, given)| arm.solver.solve(pose, given)));
+        }
+        let mut complete = 0;
+        for (((q, (pose, _)), coded), known) in all.iter().zip(&poses).zip(&coded).zip(&known) {
+            statuses[coded.status as usize] += 1;
+            complete += usize::from(known.is_complete());
+            faults.extend(arm.fault(pose, q, off, coded, known).map(|why| format!("{kind} {q:?}: {why}")));
+        }
+        table.push(format!("{kind}: {statuses:?}, library complete {complete} of {}", all.len()));
+        statuses
+    };
+    let plain = judge("regular", &regular, 0.0);
+    judge("singular", &singular, 0.0);
+    judge("beside", &beside, 0.0);
+    judge("rounded", &regular[..soak[3]], 1e-6);
+    println!("{name}\n  {}", table.join("\n  "));
+    assert!(
+        faults.is_empty(),
+        "{name}: {} faults\n{}",
+        faults.len(),
+        faults[..faults.len().min(20)].join("\n")
+    );
+    // A pose like any other is decided.
+    assert!(plain[SOLVED as usize] * 100 >= 98 * regular.len(), "{name}: {plain:?}");
+    assert_eq!(
+        plain[NO_SOLUTION as usize]
+            + plain[UNDECIDED as usize]
+            + plain[SOLVED as usize]
+            + plain[FAMILY as usize],
+        regular.len()
+    );
+}
+
+macro_rules! arms {
+    ($($test:ident $number:literal)*) => {$(
+        #[test]
+        fn $test() {
+            check(ARMS[$number]);
+        }
+    )*};
+}
+
+arms! {
+    planar 0
+    scara 1
+    articulated 2
+    stanford 3
+    puma 4
+    staubli 5
+    ur5 6
+    techman 7
+    kuka 8
+    gantry 9
+    panda 10
+    crx 11
+}
