@@ -8,15 +8,15 @@ use std::rc::Rc;
 /// One pose at a time, and blocks.
 macro_rules! generated {
     ($package:ident, $level:literal, $poses:expr) => {{
-        use $package::{IK_LANES, IK_MAX, IkBlock, IkSolution, Parameters, ik, ik_block};
+        use $package::{SOLVE_LANES, SOLVE_MAX, SolveBlock, SolveSolution, Parameters, solve, solve_block};
         let parameters = Parameters::default();
         let poses: Rc<Vec<Rows>> = $poses.clone();
         let as_matrix =
             |p: &Rows| -> [[f64; 4]; 3] { std::array::from_fn(|i| std::array::from_fn(|j| p[4 * i + j])) };
         let matrices: Vec<[[f64; 4]; 3]> = poses.iter().map(as_matrix).collect();
         let answers = |pose: &[[f64; 4]; 3]| -> Vec<Joints> {
-            let mut solutions = [IkSolution::NONE; IK_MAX];
-            let (count, _) = ik(pose, &parameters, &mut solutions);
+            let mut solutions = [SolveSolution::NONE; SOLVE_MAX];
+            let (count, _) = solve(pose, &parameters, &mut solutions);
             solutions[..count].iter().map(|s| s.q).collect()
         };
         let one = Contestant {
@@ -24,22 +24,22 @@ macro_rules! generated {
             limit: Some(0.15),
             answers: matrices.iter().map(answers).collect(),
             run: Box::new(move || {
-                let mut solutions = [IkSolution::NONE; IK_MAX];
+                let mut solutions = [SolveSolution::NONE; SOLVE_MAX];
                 for pose in &matrices {
-                    black_box(ik(black_box(pose), &parameters, black_box(&mut solutions)));
+                    black_box(solve(black_box(pose), &parameters, black_box(&mut solutions)));
                 }
             }),
         };
-        let blocks: Vec<[[f64; IK_LANES]; 12]> = poses
-            .chunks_exact(IK_LANES)
+        let blocks: Vec<[[f64; SOLVE_LANES]; 12]> = poses
+            .chunks_exact(SOLVE_LANES)
             .map(|rows| std::array::from_fn(|k| std::array::from_fn(|i| rows[i][k])))
             .collect();
         let mut answers = vec![];
-        let mut solutions = Box::new(IkBlock::NONE);
+        let mut solutions = Box::new(SolveBlock::NONE);
         for block in &blocks {
-            ik_block(block, &parameters, &mut solutions);
-            for i in 0..IK_LANES {
-                let there = (0..IK_MAX).filter(|&b| solutions.multiplicity[b][i] > 0);
+            solve_block(block, &parameters, &mut solutions);
+            for i in 0..SOLVE_LANES {
+                let there = (0..SOLVE_MAX).filter(|&b| solutions.multiplicity[b][i] > 0);
                 answers.push(there.map(|b| std::array::from_fn(|k| solutions.q[b][k][i])).collect());
             }
         }
@@ -49,7 +49,7 @@ macro_rules! generated {
             answers,
             run: Box::new(move || {
                 for block in &blocks {
-                    ik_block(black_box(block), &parameters, black_box(&mut solutions));
+                    solve_block(black_box(block), &parameters, black_box(&mut solutions));
                 }
             }),
         };

@@ -105,8 +105,9 @@ pub struct Library<'a> {
 
 /// A function that is no program, written out in the language of the library (C, Rust, IkFast; other languages leave it out).
 ///
-/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in C, `@fk_parameters@` for
-/// the last argument of a call of `fk`, with a comma before it, if that reads parameters.
+/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in C and Rust,
+/// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters; in files for Rust,
+/// `@Parameters(1.5, 2.0)@` for these values of all parameters.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Attachment {
     /// Its name, such as `inverse`.
@@ -134,6 +135,15 @@ impl Attachment {
         self.files
             .iter()
             .map(|f| File { path: Self::named(&f.path, library), text: Self::named(&f.text, library) })
+    }
+
+    /// A text with `, parameters` or nothing where functions are called, each by whether it reads none.
+    pub(crate) fn called<'a>(text: String, functions: impl Iterator<Item = (&'a str, bool)>) -> String {
+        let marked = functions.fold(text, |text, (name, reads_none)| {
+            text.replace(&format!("@{name}_parameters@"), if reads_none { "" } else { ", parameters" })
+        });
+        // Elimination has the values of parameters in it.
+        marked.replace("@solve_parameters@", "")
     }
 }
 

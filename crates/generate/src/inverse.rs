@@ -2,7 +2,6 @@
 //! model in extended precision.
 
 use super::PackageOptions;
-use super::controller::solver_name;
 use super::forward::{ends, traced};
 use super::samples::{self, Sample};
 use super::words::text;
@@ -88,7 +87,7 @@ impl Closed {
             assumed,
             vectors: vectors.len(),
         };
-        Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors, name: solver_name(options) })
+        Ok(Closed { model, solver, usual, ends: ends(d), facts, vectors, name: options.solver_name() })
     }
 
     /// What was derived.

@@ -142,6 +142,26 @@ pub struct PackageOptions {
     pub fixed: bool,
 }
 
+impl PackageOptions {
+    /// Whether `ik` is what controllers call, around `solve`, which lists the solutions.
+    fn has_controller(&self) -> bool {
+        match self.language {
+            Language::C => self.precision == Precision::Double,
+            Language::Rust => true,
+            Language::Python
+            | Language::Matlab
+            | Language::JavaScript
+            | Language::Cuda
+            | Language::IkFast => false,
+        }
+    }
+
+    /// The name of the function that lists solutions.
+    fn solver_name(&self) -> &'static str {
+        if self.has_controller() || self.language == Language::IkFast { "solve" } else { "ik" }
+    }
+}
+
 /// A function that was generated, and what is known of it.
 #[derive(Clone, Debug)]
 pub struct Function {
@@ -267,7 +287,7 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
         },
     }
     let is_inverse = closed.is_some() || general.is_some();
-    let wanted = with_one_pass(&options.functions, is_inverse && controller::is_served(options));
+    let wanted = with_one_pass(&options.functions, is_inverse && options.has_controller());
     let programs: Vec<Forward> = wanted.into_iter().filter_map(|w| Forward::new(d, w)).collect();
     let of_joints = programs.iter().map(|f| Function {
         wanted: f.wanted,
@@ -304,11 +324,11 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
             Err(why) => return Ok(Generated { files: vec![], functions, inverse: None, refused: Some(why) }),
         }
     }
-    if let (true, Some(solver)) = (controller::is_served(options), solver) {
+    if let (true, Some(solver)) = (options.has_controller(), solver) {
         let (more, values) = dynamic.as_ref().map_or((0, vec![]), |x| (x.variables.len(), x.values()));
         let controller = Controller::new(d, solver, variables.len() + more, &values);
         about.extend(controller.header());
-        attachments.push(controller.attachment());
+        attachments.push(controller.attachment(options.language));
     }
     if let Some(dynamic) = &dynamic {
         // Every function takes all variables and parameters of the library.

@@ -281,18 +281,12 @@ impl Source<'_> {
 
     /// A text of all attachments.
     fn attached(&self, text: fn(&Attachment) -> &str) -> String {
-        let of_functions = self.functions.iter().map(|f| (&f.name, f.parameters(self.library).is_empty()));
-        let of_solvers = self.plans.iter().map(|p| (&p.name, p.parameters(self.library).is_empty()));
-        let calls: Vec<(String, &str)> = of_functions
-            .chain(of_solvers)
-            .map(|(name, is_none)| {
-                (format!("@{name}_parameters@"), if is_none { "" } else { ", parameters" })
-            })
-            .collect();
-        let called =
-            |text: String| calls.iter().fold(text, |text, (mark, passed)| text.replace(mark, passed));
+        let of_functions =
+            || self.functions.iter().map(|f| (f.name.as_str(), f.parameters(self.library).is_empty()));
+        let of_solvers =
+            || self.plans.iter().map(|p| (p.name.as_str(), p.parameters(self.library).is_empty()));
         let texts = self.library.attachments.iter().map(|a| Attachment::named(text(a), &self.name));
-        texts.map(called).map(|text| text.replace("@solve_parameters@", "")).collect()
+        texts.map(|text| Attachment::called(text, of_functions().chain(of_solvers()))).collect()
     }
 
     fn one(&self, f: &Function) -> String {

@@ -113,7 +113,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
         files.push(file("src/roots.rs", source.roots()));
     }
     files.push(file("tests/vectors.rs", source.test()));
-    files.extend(library.attachments.iter().flat_map(|a| a.named_files(&source.name)));
+    files.extend(source.attached());
     files
 }
 
@@ -144,13 +144,45 @@ impl Source<'_> {
         Function::any_pair(&self.functions) || Plan::any_pair(&self.plans)
     }
 
+    /// The files of attachments.
+    fn attached(&self) -> impl Iterator<Item = File> {
+        let of_functions =
+            || self.functions.iter().map(|f| (f.name.as_str(), f.parameters(self.library).is_empty()));
+        let of_solvers =
+            || self.plans.iter().map(|p| (p.name.as_str(), p.parameters(self.library).is_empty()));
+        let files = self.library.attachments.iter().flat_map(|a| a.named_files(&self.name));
+        files.map(move |file| {
+            let text = Attachment::called(file.text, of_functions().chain(of_solvers()));
+            File { text: self.with_values(text), ..file }
+        })
+    }
+
+    /// A text with structures in place of values of parameters.
+    fn with_values(&self, text: String) -> String {
+        let Some((before, (values, after))) =
+            text.split_once("@Parameters(").and_then(|(before, rest)| Some((before, rest.split_once(")@")?)))
+        else {
+            return text;
+        };
+        let fields = self.library.parameters.iter().zip(values.split(", "));
+        let fields: Vec<String> =
+            fields.map(|(p, value)| format!("{}: {value}", self.names.of(p.symbol))).collect();
+        format!("{before}Parameters {{ {} }}{after}", fields.join(", "))
+    }
+
+    /// Whether the file of an attachment calls something of the kernel.
+    fn is_called_beside(&self, word: &str) -> bool {
+        let mut files = self.library.attachments.iter().flat_map(|a| &a.files);
+        files.any(|f| f.text.contains("use crate::kernel::") && is_called(&f.text, word))
+    }
+
     fn has_atan2(&self) -> bool {
-        Function::any_atan2(&self.functions) || Plan::any_atan2(&self.plans)
+        self.is_called_beside("atan2") || Function::any_atan2(&self.functions) || Plan::any_atan2(&self.plans)
     }
 
     fn has_root(&self) -> bool {
         let divides = |p: &Plan| p.nodes.iter().any(|n| n.kind() != Kind::Ratio) || p.any_root();
-        Function::any_root(&self.functions) || self.plans.iter().any(divides)
+        self.is_called_beside("sqrt") || Function::any_root(&self.functions) || self.plans.iter().any(divides)
     }
 
     fn needs_kernel(&self) -> bool {

@@ -1,14 +1,11 @@
 //! The functions in C99.
 
-use super::Controller;
+use super::{Controller, SAMPLES};
 use crate::Solver;
 use crate::general::MAX;
 use crate::tables::{list, wrapped};
 use denavit::inverse::Goal;
 use denavit_emit::Attachment;
-
-/// Values of given joints that are tried where the nearest configuration is searched for.
-const SAMPLES: usize = 33;
 
 /// The functions with their test.
 pub(super) fn attachment(own: &Controller) -> Attachment {
@@ -58,9 +55,6 @@ impl Controller<'_> {
             let all: Vec<&str> = (0..n).map(|j| if f(j) { "1" } else { "0" }).collect();
             format!("{{{}}}", all.join(", "))
         };
-        let angle = |j: usize, x: f64| if self.is_angle[j] { x } else { 0.0 };
-        let limit =
-            |j: usize, k: usize| self.limits[j].map_or([f64::NEG_INFINITY, f64::INFINITY][k], |l| l[k]);
         let has_given = !self.given.is_empty();
         let (g, p) = (self.given.len(), self.has_parameters);
         let given_line = format!("\n    const double given[{g}],");
@@ -75,37 +69,15 @@ impl Controller<'_> {
             ),
             Solver::General(_) => (MAX.to_string(), "By elimination there are no branches: -1.", "-1"),
         };
-        let read = match self.goal {
-            Goal::Pose => "rotation (no unit) and position (m)",
-            Goal::Position => "their last column, the position (m)",
-            Goal::PositionAndAxis => {
-                "their last two columns: the direction of the z axis (no unit) and the position (m)"
-            }
-        };
         let words = |lines: &str| wrapped(" * ", lines, "").trim_end().trim_start_matches(" * ").to_string();
         let read = if has_given {
             let names = self.given.iter().map(|j| format!("q[{j}]")).collect::<Vec<_>>().join(", ");
-            format!("{read};\n * then the values of {names}")
+            format!("{};\n * then the values of {names}", self.read())
         } else {
-            read.to_string()
+            self.read().to_string()
         };
-        let nearest = words(if has_given {
-            "The joints in excess are free: it starts from the previous configuration, and from solutions at 33 of their values if \
-             that leads farther than 0.1 rad away, and moves the arm with its hand still until no member nearby is nearer. SOLVED \
-             then says that q has the pose, and not that nothing else is nearer; UNDECIDED that none was found."
-        } else {
-            "Of families the member that is nearest is found by moving the arm with its hand still. The status is that of \
-             @name@_ik, or OUTSIDE_LIMITS; with FAMILY and UNDECIDED a nearer one may not be known."
-        });
-        let plain = self.turning.windows.iter().all(|w| !w.is_finite() || *w == std::f64::consts::TAU);
-        let range =
-            if plain { "in (-pi, pi]" } else { "in the range in which all links come back, around 0" };
-        let columns: &[usize] = match self.goal {
-            Goal::Pose => &[0, 1, 2, 3],
-            Goal::Position => &[3],
-            Goal::PositionAndAxis => &[2, 3],
-        };
-        let places: Vec<(usize, usize)> = (0..3).flat_map(|i| columns.iter().map(move |&j| (i, j))).collect();
+        let nearest = words(self.nearest());
+        let places = self.places();
         let mut flatten = String::new();
         for (k, (i, j)) in places.iter().enumerate() {
             flatten.push_str(&format!("    values[{k}] = goal[{i}][{j}];\n"));
@@ -171,7 +143,7 @@ impl Controller<'_> {
             .replace("@branch@", branch)
             .replace("@max@", &max)
             .replace("@read@", &read)
-            .replace("@range@", range)
+            .replace("@range@", self.range())
             .replace("@nearest@", &nearest)
             .replace("@given_check@", &either(has_given, &given_check))
             .replace("@given_declaration@", &either(has_given, &given_line))
@@ -186,12 +158,12 @@ impl Controller<'_> {
             .replace("@parameters_passed@", &either(p, ", parameters"))
             .replace("@parameters_unread@", &either(p, "\n    (void)parameters;"))
             .replace("@size@", &format!("{:?}", self.size))
-            .replace("@units@", &numbers(&|j| if self.is_angle[j] { 1.0 } else { self.size }))
-            .replace("@periods@", &numbers(&|j| angle(j, self.turning.periods[j])))
-            .replace("@windows@", &numbers(&|j| angle(j, self.turning.windows[j])))
+            .replace("@units@", &numbers(&|j| self.unit(j)))
+            .replace("@periods@", &numbers(&|j| self.period(j)))
+            .replace("@windows@", &numbers(&|j| self.window(j)))
             .replace("@is_given@", &flags(&|j| self.is_given(j)))
-            .replace("@lower@", &limits(n, |j| limit(j, 0)))
-            .replace("@upper@", &limits(n, |j| limit(j, 1)))
+            .replace("@lower@", &limits(n, |j| self.limit(j)[0]))
+            .replace("@upper@", &limits(n, |j| self.limit(j)[1]))
             .replace("@columns@", &(6 * n).to_string())
             .replace("@variables@", &self.variables.to_string())
             .replace("@n@", &n.to_string())

@@ -6,23 +6,18 @@
 //! found: an isolated solution with a Jacobian of full rank has neighbours at all poses nearby.
 
 mod c;
+mod rust;
 
-use super::{PackageOptions, Solver, samples};
+use super::{Solver, samples};
 use denavit::description::{Description, JointKind};
 use denavit::inverse::Goal;
 use denavit::robot::Robot;
 use denavit::space::{JointSpace, Periods};
-use denavit_emit::{Attachment, Language, Precision};
+use denavit_emit::{Attachment, Language};
+use std::f64::consts::TAU;
 
-/// The name of the function that lists solutions, in a language.
-pub(super) fn solver_name(options: &PackageOptions) -> &'static str {
-    if is_served(options) || options.language == Language::IkFast { "solve" } else { "ik" }
-}
-
-/// Whether the language has these functions.
-pub(super) fn is_served(options: &PackageOptions) -> bool {
-    options.language == Language::C && options.precision == Precision::Double
-}
+/// Values of given joints that are tried where the nearest configuration is searched for.
+const SAMPLES: usize = 33;
 
 /// The functions around `solve`.
 pub(super) struct Controller<'a> {
@@ -85,9 +80,12 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// What lists the solutions, in the language.
-    pub fn attachment(&self) -> Attachment {
-        c::attachment(self)
+    /// The functions in a language.
+    pub fn attachment(&self, language: Language) -> Attachment {
+        match language {
+            Language::Rust => rust::attachment(self),
+            _ => c::attachment(self),
+        }
     }
 
     /// Lines for the head of each file.
@@ -97,6 +95,61 @@ impl<'a> Controller<'a> {
              singular poses, and beside them, solutions are followed from poses nearby, where all are regular."
                 .into(),
         ]
+    }
+
+    /// What is read of a pose.
+    fn read(&self) -> &'static str {
+        match self.goal {
+            Goal::Pose => "rotation (no unit) and position (m)",
+            Goal::Position => "their last column, the position (m)",
+            Goal::PositionAndAxis => {
+                "their last two columns: the direction of the z axis (no unit) and the position (m)"
+            }
+        }
+    }
+
+    /// Where the numbers stand that `solve` takes of a pose: row and column.
+    fn places(&self) -> Vec<(usize, usize)> {
+        let columns: &[usize] = match self.goal {
+            Goal::Pose => &[0, 1, 2, 3],
+            Goal::Position => &[3],
+            Goal::PositionAndAxis => &[2, 3],
+        };
+        (0..3).flat_map(|i| columns.iter().map(move |&j| (i, j))).collect()
+    }
+
+    /// Where listed angles lie.
+    fn range(&self) -> &'static str {
+        let is_plain = self.turning.windows.iter().all(|w| !w.is_finite() || *w == TAU);
+        if is_plain { "in (-pi, pi]" } else { "in the range in which all links come back, around 0" }
+    }
+
+    /// What is said of the nearest configuration.
+    fn nearest(&self) -> &'static str {
+        if self.given.is_empty() {
+            "Of families the member that is nearest is found by moving the arm with its hand still. The status is that of \
+             ik, or OUTSIDE_LIMITS; with FAMILY and UNDECIDED a nearer one may not be known."
+        } else {
+            "The joints in excess are free: it starts from the previous configuration, and from solutions at 33 of their values if \
+             that leads farther than 0.1 rad away, and moves the arm with its hand still until no member nearby is nearer. SOLVED \
+             then says that q has the pose, and not that nothing else is nearer; UNDECIDED that none was found."
+        }
+    }
+
+    fn unit(&self, joint: usize) -> f64 {
+        if self.is_angle[joint] { 1.0 } else { self.size }
+    }
+
+    fn period(&self, joint: usize) -> f64 {
+        if self.is_angle[joint] { self.turning.periods[joint] } else { 0.0 }
+    }
+
+    fn window(&self, joint: usize) -> f64 {
+        if self.is_angle[joint] { self.turning.windows[joint] } else { 0.0 }
+    }
+
+    fn limit(&self, joint: usize) -> [f64; 2] {
+        self.limits[joint].unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
     }
 
     fn joints(&self) -> usize {

@@ -11,22 +11,22 @@ const DECLARATIONS: &str = "
 #[allow(unused, missing_docs, clippy::all)]
 mod elimination;
 #[cfg(feature = \"std\")]
-mod ik;
+mod solve;
 #[cfg(feature = \"std\")]
-pub use ik::{IK_MAX, IkCertificate, IkSolution, ik};
+pub use solve::{SOLVE_MAX, SolveCertificate, SolveSolution, solve};
 ";
 
 pub(super) fn attachment(general: &General) -> Attachment {
     let mut files = vec![
-        File { path: "src/ik.rs".into(), text: function(general) },
-        File { path: "tests/ik.rs".into(), text: test(general) },
+        File { path: "src/solve.rs".into(), text: function(general) },
+        File { path: "tests/solve.rs".into(), text: test(general) },
     ];
     files.extend(
         source::module()
             .into_iter()
             .map(|(name, text)| File { path: format!("src/elimination/{name}"), text }),
     );
-    Attachment { name: "ik".into(), declarations: DECLARATIONS.into(), files, ..Attachment::default() }
+    Attachment { name: "solve".into(), declarations: DECLARATIONS.into(), files, ..Attachment::default() }
 }
 
 fn function(general: &General) -> String {
@@ -39,7 +39,7 @@ fn function(general: &General) -> String {
     });
     let links: String = arm.links.iter().map(|link| format!("        {},\n", rigid(link))).collect();
     let rows = |m: &[[f64; 6]; 6]| m.iter().map(|row| format!("    {row:?},\n")).collect::<String>();
-    include_str!("ik.rs.txt")
+    include_str!("solve.rs.txt")
         .replace("@about@\n", &about)
         .replace("@base@", &rigid(&arm.base))
         .replace("@joints@", &joints.join(", "))
@@ -87,7 +87,7 @@ fn test(general: &General) -> String {
         known.push_str("    ],\n");
         let _ = writeln!(given, "    {:?},", v.configuration);
     }
-    include_str!("test_ik.rs.txt")
+    include_str!("test_solve.rs.txt")
         .replace("@poses@", &poses)
         .replace("@known@", &known)
         .replace("@given@", &given)
