@@ -3,6 +3,7 @@
 //! A function for one configuration, and one for a block of [`LANES`] with the values of all lanes side by side. The
 //! routines for sines, cosines and angles are those of this crate (`kernel/*.rs`), embedded as they stand.
 
+mod attached;
 mod kernel;
 mod lanes;
 mod solver;
@@ -142,38 +143,6 @@ impl Source<'_> {
 
     fn has_pairs(&self) -> bool {
         Function::any_pair(&self.functions) || Plan::any_pair(&self.plans)
-    }
-
-    /// The files of attachments.
-    fn attached(&self) -> impl Iterator<Item = File> {
-        let of_functions =
-            || self.functions.iter().map(|f| (f.name.as_str(), f.parameters(self.library).is_empty()));
-        let of_solvers =
-            || self.plans.iter().map(|p| (p.name.as_str(), p.parameters(self.library).is_empty()));
-        let files = self.library.attachments.iter().flat_map(|a| a.named_files(&self.name));
-        files.map(move |file| {
-            let text = Attachment::called(file.text, of_functions().chain(of_solvers()));
-            File { text: self.with_values(text), ..file }
-        })
-    }
-
-    /// A text with structures in place of values of parameters.
-    fn with_values(&self, text: String) -> String {
-        let Some((before, (values, after))) =
-            text.split_once("@Parameters(").and_then(|(before, rest)| Some((before, rest.split_once(")@")?)))
-        else {
-            return text;
-        };
-        let fields = self.library.parameters.iter().zip(values.split(", "));
-        let fields: Vec<String> =
-            fields.map(|(p, value)| format!("{}: {value}", self.names.of(p.symbol))).collect();
-        format!("{before}Parameters {{ {} }}{after}", fields.join(", "))
-    }
-
-    /// Whether the file of an attachment calls something of the kernel.
-    fn is_called_beside(&self, word: &str) -> bool {
-        let mut files = self.library.attachments.iter().flat_map(|a| &a.files);
-        files.any(|f| f.text.contains("use crate::kernel::") && is_called(&f.text, word))
     }
 
     fn has_atan2(&self) -> bool {
