@@ -1,6 +1,7 @@
 //! Everything a contributor runs: `cargo xtask help`.
 
 mod bench;
+mod c;
 mod certificates;
 mod counts;
 mod descriptions;
@@ -48,6 +49,8 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [a
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; the package beside other
                                  packages; kernels on a GPU where nvcc is; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
 cargo xtask languages            builds and runs generated source code in every language
+cargo xtask c [--write]          the C library: its header compared, its examples in C, C++ and Go and its tests built and run;
+                                 --write renews the header
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
 cargo xtask site                 the documentation as a site for any static host, in target/site; with the page, where it is built
@@ -101,6 +104,8 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
         ["bench", ref parts @ ..] => bench::run(parts, false),
         ["languages"] => languages::run(),
+        ["c"] => c::test(),
+        ["c", "--write"] => c::write(),
         ["python"] => python::test(),
         ["wheel"] => python::wheel(),
         ["site"] => site::build().map(drop),

@@ -38,6 +38,7 @@ const ASIDE: &[Step] = &[
     step("page, driven", &["page"]),
     step("benchmark", &["step", "benchmark"]),
     step("languages", &["languages"]),
+    step("c", &["c"]),
     step("python", &["python"]),
     step("site", &["site"]),
 ];

@@ -34,7 +34,7 @@ impl Kind {
     /// its root element, a robot file by its heads, else a table.
     pub fn of(name: &str) -> Option<Self> {
         match Path::new(name).extension().and_then(|e| e.to_str()) {
-            _ if name == "-" => Some(of_text(&head(name))),
+            _ if name == "-" => Some(Kind::of_text(&head(name))),
             Some("toml") => Some(Kind::Robot),
             Some("md" | "markdown" | "txt" | "typ") => Some(Kind::Table(TableKind::Markdown)),
             Some("csv" | "tsv") => Some(Kind::Table(TableKind::Csv)),
@@ -44,6 +44,21 @@ impl Kind {
             Some("m") => Some(Kind::Program(Language::Matlab)),
             Some("py") => Some(Kind::Program(Language::Python)),
             _ => None,
+        }
+    }
+
+    /// What a text without a name holds: bodies by its root element, a robot file by its heads, else a table.
+    pub fn of_text(text: &str) -> Self {
+        // The head of an array of tables, as a robot file has one for each joint.
+        let is_head = |line: &str| {
+            let name = line.trim().strip_prefix("[[").and_then(|l| l.strip_suffix("]]"));
+            name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+        };
+        let is_robot = text.lines().any(is_head);
+        match () {
+            () if has_bodies(text) => Kind::Bodies,
+            () if is_robot => Kind::Robot,
+            () => Kind::Table(TableKind::Markdown),
         }
     }
 }
@@ -65,21 +80,6 @@ fn head(name: &str) -> String {
 /// True for what begins as a file of bodies does.
 fn has_bodies(text: &str) -> bool {
     matches!(root_element(text), Some("robot" | "mujoco" | "mujocoinclude" | "sdf"))
-}
-
-/// What a text without a name holds.
-fn of_text(text: &str) -> Kind {
-    // The head of an array of tables, as a robot file has one for each joint.
-    let is_head = |line: &str| {
-        let name = line.trim().strip_prefix("[[").and_then(|l| l.strip_suffix("]]"));
-        name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
-    };
-    let is_robot = text.lines().any(is_head);
-    match () {
-        () if has_bodies(text) => Kind::Bodies,
-        () if is_robot => Kind::Robot,
-        () => Kind::Table(TableKind::Markdown),
-    }
 }
 
 /// The catalogue's spelling: lower case, words joined by hyphens. `None` for what looks like a path.

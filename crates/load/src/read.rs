@@ -96,11 +96,19 @@ pub enum Problem {
 /// # Errors
 /// See [`Problem`].
 pub fn read(name: &str, kind: Kind, options: &Options) -> Result<Contents, Problem> {
+    let most = if kind == Kind::Bodies { MAX_XML_BYTES } else { MAX_BYTES };
+    let text = contents(name, most).map_err(Problem::Unreadable)?;
+    read_text(name, text.into(), kind, options)
+}
+
+/// Reads a text of this kind; `name` is what findings call it, and the files that it names are looked for around that name.
+///
+/// # Errors
+/// See [`Problem`].
+pub fn read_text(name: &str, text: Arc<str>, kind: Kind, options: &Options) -> Result<Contents, Problem> {
     if let Some((_, folder)) = options.packages.iter().find(|p| !p.1.is_dir()) {
         return Err(Problem::NoFolder(folder.clone()));
     }
-    let most = if kind == Kind::Bodies { MAX_XML_BYTES } else { MAX_BYTES };
-    let text: Arc<str> = contents(name, most).map_err(Problem::Unreadable)?.into();
     let findings = |all| Finding::all(all, name, &text);
     let errors = |all| Problem::Errors(findings(all));
     let (content, found) = match kind {

@@ -60,6 +60,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             JIT,
         ],
     ),
+    ("crates/ffi", "denavit-ffi", BELOW_DOORS),
     // It runs the program.
     ("xtask", "xtask", &[]),
 ];
