@@ -162,6 +162,9 @@ fn listing(folder: &Path, files: &BTreeSet<PathBuf>, to: &Path) -> Result<String
         let language = match file.extension().and_then(|e| e.to_str()) {
             Some("rs") => "rust",
             Some("py") => "python",
+            Some("c" | "h") => "c",
+            Some("cpp" | "hpp") => "cpp",
+            Some("go") => "go",
             Some(known @ ("toml" | "json")) => known,
             _ => "none",
         };

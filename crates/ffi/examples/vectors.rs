@@ -35,7 +35,7 @@ fn main() {
         chain(&mut out, k % 3, &rows, k == 1, &mut random);
     }
     weighing(&mut out, &mut random);
-    print!("{out}end\n");
+    println!("{out}end");
 }
 
 /// Six axes with a wrist whose axes meet, others askew, seven axes, a slide, three in a plane.
@@ -70,7 +70,8 @@ fn described(convention: usize, rows: &[Row], limited: bool) -> Description {
         let variable = rows[..i].iter().filter(|r| r.1 != 2).count() + 1;
         for (k, x) in row.iter().enumerate() {
             let letter = letters[PLACES[convention][k]];
-            let moved = if *kind < 2 && usize::from(*kind) == k { format!(" + q{variable}") } else { String::new() };
+            let moved =
+                if *kind < 2 && usize::from(*kind) == k { format!(" + q{variable}") } else { String::new() };
             let _ = writeln!(text, "{letter} = '{x}{moved}'");
         }
         if limited && *kind == 0 {

@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 
-/* Types: statuses, names of functions, objects, and structures that are read and written. */
+/* Types: statuses, names of functions, and structures that are read and written. */
 
 /** How a call ended. Negative: nothing was computed. */
 typedef int32_t denavit_status;
@@ -183,6 +183,12 @@ enum {
   DENAVIT_DOUBT_DIGITS = 7
 };
 
+/** The tool, where a frame is asked for. */
+enum { DENAVIT_TOOL = -1 };
+
+/** The base, where a frame is asked for: what frame 0 stands in. */
+enum { DENAVIT_BASE = -2 };
+
 /** How bad a finding is. */
 typedef int32_t denavit_finding_severity;
 
@@ -194,15 +200,6 @@ enum {
   /** What was understood. */
   DENAVIT_FINDING_NOTE = 2
 };
-
-/** A robot: one chain of joints with its tool. Used by any number of threads at once. */
-typedef struct denavit_robot denavit_robot;
-
-/** The inverse kinematics of a robot, prepared. Used by any number of threads at once. */
-typedef struct denavit_solver denavit_solver;
-
-/** All that was found for a pose. */
-typedef struct denavit_answer denavit_answer;
 
 /**
  * A pose: the matrix that takes coordinates in a frame (the tool, say) to those in the base, row by row; the last row
@@ -353,6 +350,18 @@ typedef struct denavit_nearest {
 } denavit_nearest;
 
 
+/* Objects: what only pointers to are seen of. */
+
+/** A robot: one chain of joints with its tool. Used by any number of threads at once. */
+typedef struct denavit_robot denavit_robot;
+
+/** The inverse kinematics of a robot, prepared. Used by any number of threads at once. */
+typedef struct denavit_solver denavit_solver;
+
+/** All that was found for a pose. */
+typedef struct denavit_answer denavit_answer;
+
+
 /* Errors: what went wrong last on this thread, and the version. */
 
 /**
@@ -478,12 +487,6 @@ denavit_status denavit_robot_finding(const denavit_robot *robot, size_t index, d
 
 
 /* Poses, frames, Jacobians; functions of many states. */
-
-/** The tool, where a frame is asked for. */
-enum { DENAVIT_TOOL = -1 };
-
-/** The base, where a frame is asked for: what frame 0 stands in. */
-enum { DENAVIT_BASE = -2 };
 
 /** The pose of the tool in the base at q. `joints` is the length of q. */
 denavit_status denavit_fk(const denavit_robot *robot, const double *q, size_t joints, denavit_pose *pose);

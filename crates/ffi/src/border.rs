@@ -2,8 +2,8 @@
 
 #![allow(unsafe_code)] // what a caller in C has promised of its pointers is believed here
 
-use crate::c::types::Status;
 use crate::trouble::Trouble;
+use crate::types::Status;
 use std::ffi::{CStr, c_char};
 use std::{ptr, slice};
 
@@ -159,5 +159,34 @@ pub unsafe fn give<T>(place: &Place<*mut T>, object: T) {
 pub unsafe fn take<T>(pointer: *mut T) {
     if !pointer.is_null() {
         drop(unsafe { Box::from_raw(pointer) });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_overlaps() {
+        let a = [0_u64; 4];
+        let at = |i: usize| a[i..].as_ptr().cast::<u32>();
+        assert!(overlap(&a[1..3], at(0), 3) && overlap(&a[1..3], at(2), 1) && overlap(&a[1..3], at(0), 100));
+        assert!(!overlap(&a[1..3], at(0), 2) && !overlap(&a[1..3], at(3), 2) && !overlap(&a[..0], at(0), 2));
+    }
+
+    #[test]
+    fn pointers_that_are_none() {
+        fn status(found: Result<&[f64], Trouble>) -> Result<&[f64], Status> {
+            found.map_err(|why| why.status)
+        }
+        let a = [1.0, 2.0];
+        let aside = a.as_ptr().wrapping_byte_add(1);
+        unsafe {
+            assert_eq!(status(array(ptr::null(), 0, "a")), Ok(&[][..]));
+            assert_eq!(status(array(ptr::null(), 1, "a")), Err(Status::BadPointer));
+            assert_eq!(status(array(aside, 1, "a")), Err(Status::BadPointer));
+            assert_eq!(status(array(a.as_ptr(), usize::MAX / 8, "a")), Err(Status::WrongLength));
+            assert_eq!(status(array(a.as_ptr(), 2, "a")), Ok(&a[..]));
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A table in numbers as the text of a robot file.
 
-use crate::c::types::{Convention, JointKind, Pose, Status};
 use crate::trouble::Trouble;
+use crate::types::{Convention, JointKind, Pose, Status};
 use std::fmt::Write as _;
 
 /// The table of an arm.

@@ -1,7 +1,7 @@
 //! Functions of states, compiled when they are first needed.
 
-use crate::c::types::{Function as Name, Status};
 use crate::trouble::Trouble;
+use crate::types::{Function as Name, Status};
 use denavit::description::Description;
 use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
 use denavit::forward::{Reference, frames_program, pose_program};

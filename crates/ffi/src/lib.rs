@@ -28,3 +28,4 @@ mod loading;
 mod robot;
 mod solver;
 mod trouble;
+mod types;

@@ -1,7 +1,7 @@
 //! Robots by name, from files and texts.
 
-use crate::c::types::{FindingSeverity, JointKind, Status};
 use crate::trouble::{Found, Trouble, text};
+use crate::types::{FindingSeverity, JointKind, Status};
 use denavit::description::{Convention, Description, JointKind as Kind, NoChain, read_robot, write_toml};
 use denavit_load::{
     Around, Content, Contents, ENDINGS, NotTaken, Options, Problem, catalogue_name, close_names, listed,

@@ -1,10 +1,10 @@
 //! A robot: the text of its file, and what was compiled of it.
 
-use crate::c::kinematics::{DENAVIT_BASE as BASE, DENAVIT_TOOL as TOOL};
-use crate::c::types::{Function, Status};
 use crate::functions::{self, Ready};
 use crate::loading::{Facts, Request};
 use crate::trouble::{Found, Trouble, apart};
+use crate::types::{DENAVIT_BASE as BASE, DENAVIT_TOOL as TOOL};
+use crate::types::{Function, Status};
 use denavit::description::{Description, read_toml};
 use denavit::forward::Reference;
 use denavit::velocity::{Viewpoint, jacobian_program};

@@ -1,9 +1,9 @@
 //! Inverse kinematics, prepared; and what it answers.
 
-use crate::c::types::{Doubt, Goal, Pose, Status};
 use crate::functions::threads;
 use crate::robot;
 use crate::trouble::{Trouble, text};
+use crate::types::{Doubt, Goal, Pose, Status};
 use denavit::description::Description;
 use denavit::geometry::{NotRigid, Transform};
 use denavit::inverse::{self, InverseKinematics, InverseOptions, Unprepared};

@@ -1,6 +1,6 @@
 //! What goes wrong: a status, its words, and findings with their places; the last one of each thread.
 
-use crate::c::types::{FindingSeverity, Status};
+use crate::types::{FindingSeverity, Status};
 use denavit::description::{Diagnostic, Severity, line_column};
 use denavit_load::Finding;
 use std::any::Any;
@@ -143,4 +143,33 @@ pub fn apart<T: Send>(work: impl FnOnce() -> Result<T, Trouble> + Send) -> Resul
         let started = started.map_err(|e| Trouble::new(Status::Unsupported, format!("no thread: {e}")))?;
         started.join().unwrap_or_else(|panic| Err(Trouble::panicked(&*panic)))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message() -> String {
+        last(|last| last.message.to_string_lossy().into_owned()).unwrap_or_default()
+    }
+
+    #[test]
+    fn a_panic_is_a_status() {
+        assert_eq!(guarded(|| panic!("no {}", "way")), Status::Panic);
+        assert!(message().ends_with("no way"), "{}", message());
+        assert_eq!(guarded(|| apart(|| panic!("far away"))), Status::Panic);
+        assert!(message().ends_with("far away"), "{}", message());
+        assert_eq!(guarded(|| std::panic::panic_any(7)), Status::Panic);
+        assert!(message().ends_with("without words"), "{}", message());
+    }
+
+    #[test]
+    fn the_last_error_is_that_of_its_thread_and_stays() {
+        let fail = |words: &str| guarded(|| Err(Trouble::new(Status::BadFile, words)));
+        assert_eq!(fail("one\0two"), Status::BadFile);
+        assert_eq!(guarded(|| Ok(Status::Family)), Status::Family);
+        let other = thread::spawn(move || (message(), fail("three"), message()));
+        assert_eq!(other.join().ok(), Some((String::new(), Status::BadFile, "three".into())));
+        assert_eq!(message(), "one\u{fffd}two");
+    }
 }

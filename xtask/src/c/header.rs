@@ -12,7 +12,8 @@ use std::fs;
 pub const HEADER: &str = "crates/ffi/include/denavit.h";
 const SOURCES: &str = "crates/ffi/src";
 /// What is seen from C, in the order in which it stands in the header.
-const FILES: [&str; 7] = ["types", "error", "robot", "kinematics", "dynamics", "solver", "answer"];
+const FILES: [&str; 8] =
+    ["types", "c/objects", "c/error", "c/robot", "c/kinematics", "c/dynamics", "c/solver", "c/answer"];
 /// The longest line.
 const WIDTH: usize = 120;
 
@@ -43,7 +44,7 @@ fn made() -> Result<Header> {
     let read =
         |name: &str| fs::read_to_string(path(&format!("{SOURCES}/{name}.rs"))).context(name.to_string());
     let mut header = Header { text: opening(&read("lib")?), ..Header::default() };
-    let texts = FILES.map(|name| read(&format!("c/{name}")));
+    let texts = FILES.map(read);
     let texts: Vec<String> = texts.into_iter().collect::<Result<_>>()?;
     for text in &texts {
         header.file(text)?;

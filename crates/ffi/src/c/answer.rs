@@ -2,11 +2,12 @@
 
 #![allow(unsafe_code, clippy::missing_safety_doc)] // functions of C; what pointers have to be stands in `lib.rs`
 
+use super::objects::Answer;
 use super::robot::index_error;
-use super::types::{Answer, Code, Doubt, Family, Nearest, Obstacle, Solution, Status};
 use crate::border::{Place, Room, array, object, take};
 use crate::solver::{Found, doubt, finite, status};
 use crate::trouble::{Trouble, guarded};
+use crate::types::{Code, Doubt, Family, Nearest, Obstacle, Solution, Status};
 use denavit::inverse;
 use std::ffi::c_char;
 

@@ -3,9 +3,10 @@
 #![allow(unsafe_code, clippy::missing_safety_doc)] // functions of C; what pointers have to be stands in `lib.rs`
 
 use super::kinematics::state;
-use super::types::{Function, Robot, Status};
+use super::objects::Robot;
 use crate::border::{Place, Room, object};
 use crate::trouble::{Trouble, guarded};
+use crate::types::{Function, Status};
 
 /// The results of a function of one state, put into a room that may be where its vectors were.
 unsafe fn one(

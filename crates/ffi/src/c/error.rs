@@ -2,9 +2,9 @@
 
 #![allow(unsafe_code)] // functions of C
 
-use super::types::{Code, Finding, Status};
 use crate::border::Place;
 use crate::trouble::{Found, Trouble, guarded, last};
+use crate::types::{Code, Finding, Status};
 use std::ffi::c_char;
 use std::ptr;
 

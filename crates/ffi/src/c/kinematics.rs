@@ -2,16 +2,12 @@
 
 #![allow(unsafe_code, clippy::missing_safety_doc)] // functions of C; what pointers have to be stands in `lib.rs`
 
-use super::types::{Code, Function, Pose, Robot, Status};
+use super::objects::Robot;
 use crate::border::{Place, array, object, overlap, room};
 use crate::robot::Core;
 use crate::solver::{finite, pose as pose_of};
 use crate::trouble::{Trouble, guarded};
-
-/// The tool, where a frame is asked for.
-pub const DENAVIT_TOOL: i32 = -1;
-/// The base, where a frame is asked for: what frame 0 stands in.
-pub const DENAVIT_BASE: i32 = -2;
+use crate::types::{Code, Function, Pose, Status};
 
 /// Vectors with an entry a joint, one behind the other.
 pub unsafe fn state(
@@ -150,7 +146,7 @@ pub unsafe extern "C" fn denavit_evaluate(
         let (core, name) = (&object(robot, "robot")?.0, named(function)?);
         let (reads, gives) = core.size(name);
         for (what, given, one) in [("inputs", inputs_length, reads), ("outputs", outputs_length, gives)] {
-            let wanted = one.checked_mul(rows).unwrap_or(usize::MAX);
+            let wanted = one.saturating_mul(rows);
             if given != wanted {
                 return Err(Trouble::length(what, given, wanted));
             }

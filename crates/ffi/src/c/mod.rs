@@ -1,9 +1,9 @@
-//! What C sees: `cargo xtask c --write` makes the header of these files, in their order in `xtask/src/c/header.rs`.
+//! What C sees: `cargo xtask c --write` makes the header of these files and `types.rs`, in their order in `xtask/src/c/header.rs`.
 
 mod answer;
 mod dynamics;
 mod error;
-pub mod kinematics;
+mod kinematics;
+mod objects;
 mod robot;
 mod solver;
-pub mod types;

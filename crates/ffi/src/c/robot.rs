@@ -3,12 +3,13 @@
 #![allow(unsafe_code, clippy::missing_safety_doc)] // functions of C; what pointers have to be stands in `lib.rs`
 
 use super::error::shown;
-use super::types::{Code, Convention as Named, Finding, Joint, JointKind, Options, Pose, Robot, Status};
+use super::objects::Robot;
 use crate::border::{Place, array, give, object, optional, optional_text, take, text};
 use crate::dh::Table;
 use crate::loading::{Request, Source};
 use crate::robot::Core;
 use crate::trouble::{Trouble, guarded};
+use crate::types::{Code, Convention as Named, Finding, Joint, JointKind, Options, Pose, Status};
 use denavit::description::{Convention, TableOptions};
 use denavit_load as load;
 use std::ffi::{CString, c_char};
@@ -194,7 +195,7 @@ pub unsafe extern "C" fn denavit_robot_table(
             convention: convention.ok_or_else(|| Trouble::new(Status::BadArgument, "no such convention"))?,
             cells: cells.as_chunks().0,
             kinds: kinds.iter().map(kind).collect::<Result<_, _>>()?,
-            limits: (!limits.is_empty()).then(|| limits.as_chunks().0),
+            limits: (!limits.is_empty()).then_some(limits.as_chunks().0),
             base: optional(base, "base")?,
             tool: optional(tool, "tool")?,
         };

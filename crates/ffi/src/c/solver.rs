@@ -2,10 +2,11 @@
 
 #![allow(unsafe_code, clippy::missing_safety_doc)] // functions of C; what pointers have to be stands in `lib.rs`
 
-use super::types::{Answer, Code, Goal, Pose, Robot, Solver, Status, Tracked};
+use super::objects::{Answer, Robot, Solver};
 use crate::border::{Place, Room, array, give, object, overlap, room, take};
 use crate::solver::{Core, Rows, finite, rigid};
 use crate::trouble::{Trouble, guarded};
+use crate::types::{Code, Goal, Pose, Status, Tracked};
 use denavit::inverse::Course;
 use std::ffi::c_char;
 use std::sync::Arc;

@@ -1,10 +1,7 @@
-//! Types: statuses, names of functions, objects, and structures that are read and written.
+//! Types: statuses, names of functions, and structures that are read and written.
 
-use crate::robot;
-use crate::solver;
 use std::ffi::c_char;
 use std::marker::PhantomData;
-use std::sync::Arc;
 
 /// How a call ended. Negative: nothing was computed.
 #[repr(i32)]
@@ -149,6 +146,11 @@ pub enum Doubt {
     Digits = 7,
 }
 
+/// The tool, where a frame is asked for.
+pub const DENAVIT_TOOL: i32 = -1;
+/// The base, where a frame is asked for: what frame 0 stands in.
+pub const DENAVIT_BASE: i32 = -2;
+
 /// How bad a finding is.
 #[repr(i32)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -160,18 +162,6 @@ pub enum FindingSeverity {
     /// What was understood.
     Note = 2,
 }
-
-/// A robot: one chain of joints with its tool. Used by any number of threads at once.
-#[derive(Debug)]
-pub struct Robot(pub Arc<robot::Core>);
-
-/// The inverse kinematics of a robot, prepared. Used by any number of threads at once.
-#[derive(Debug)]
-pub struct Solver(pub Arc<solver::Core>);
-
-/// All that was found for a pose.
-#[derive(Debug)]
-pub struct Answer(pub solver::Found);
 
 /// A pose: the matrix that takes coordinates in a frame (the tool, say) to those in the base, row by row; the last row is 0 0 0 1. Its
 /// last column is the position, metres.
@@ -329,13 +319,6 @@ pub struct Nearest {
     /// Whether the limits allow it.
     pub within_limits: i32,
 }
-
-const _: () = {
-    const fn shared<T: Send + Sync>() {}
-    shared::<Robot>();
-    shared::<Solver>();
-    shared::<Answer>();
-};
 
 /// Enumerations whose numbers C gives and gets.
 pub trait Numbered: Copy + 'static {
