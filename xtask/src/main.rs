@@ -54,7 +54,7 @@ cargo xtask c [--write]          the C library: its header compared, its example
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
 cargo xtask wheel                its wheel as it would be published, installed into an empty environment and tested there
 cargo xtask site                 the documentation as a site for any static host, in target/site; with the page, where it is built
-cargo xtask release [crates | sbom | site | program | wheel]...
+cargo xtask release [crates | sbom | site | program | library | wheel]...
                                  everything that would be published, in target/release-files with checksums; nothing is
                                  uploaded; the page has to be built (`cargo xtask web`)
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,

@@ -10,25 +10,32 @@ use std::path::{Path, PathBuf};
 const CRATE: u64 = 10_000_000;
 const PROGRAM: u64 = 60_000_000;
 const WHEEL: u64 = 40_000_000;
+const LIBRARY: u64 = 150_000_000;
 
 /// The target of the program that runs on every Linux.
 const STATIC: &str = "x86_64-unknown-linux-musl";
 
 /// What is handed out otherwise than as crates, with what it is made of.
-const SHIPPED: [&str; 3] = ["denavit-cli", "denavit-python", "denavit-web"];
+const SHIPPED: [&str; 4] = ["denavit-cli", "denavit-ffi", "denavit-python", "denavit-web"];
 /// Where `crates/cli/build.rs` finds the page when it is built from its crate.
 const PAGE_OF_CRATE: &str = "crates/cli/page";
 
 /// A part with its name.
 type Part = (&'static str, fn(&Path) -> Result<()>);
 
-/// Makes the parts that are named, or all: `crates`, `sbom`, `site`, `program`, `wheel`; and the sums of what is there then.
+/// Makes the parts that are named, or all: `crates`, `sbom`, `site`, `program`, `library`, `wheel`; and the sums of what is there then.
 ///
 /// # Errors
 /// If a part cannot be made, or is larger than its limit.
 pub fn run(parts: &[&str]) -> Result<()> {
-    let all: [Part; 5] =
-        [("crates", crates), ("sbom", sbom), ("site", site), ("program", program), ("wheel", wheel)];
+    let all: [Part; 6] = [
+        ("crates", crates),
+        ("sbom", sbom),
+        ("site", site),
+        ("program", program),
+        ("library", library),
+        ("wheel", wheel),
+    ];
     if let Some(unknown) = parts.iter().find(|part| all.iter().all(|(name, _)| name != *part)) {
         bail!("no part {unknown}: {}", all.map(|(name, _)| name).join(", "));
     }
@@ -105,7 +112,7 @@ fn of_this_commit(folder: &Path) -> Result<PathBuf> {
     Ok(own)
 }
 
-/// What the program, its page and the wheel are made of, as CycloneDX 1.5: on whatever system, without what only tests use.
+/// What the program, its page, the library for C and the wheel are made of, as CycloneDX 1.5: on whatever system, without what only tests use.
 fn sbom(folder: &Path) -> Result<()> {
     let metadata = metadata()?;
     let packages = metadata["packages"].as_array().context("cargo metadata has packages")?;
@@ -216,6 +223,23 @@ fn program(folder: &Path) -> Result<()> {
     let (system, machine) = (std::env::consts::OS, std::env::consts::ARCH);
     let name = format!("denavit-{system}-{machine}{}", std::env::consts::EXE_SUFFIX);
     put(&built, &folder.join(name), PROGRAM)
+}
+
+/// The library for C of this system, shared and static, with its headers.
+fn library(folder: &Path) -> Result<()> {
+    let build = ["build", "--locked", "--profile", "dist", "--package", "denavit-ffi"];
+    succeed(cargo().args(build))?;
+    let files: &[&str] = match () {
+        () if cfg!(windows) => &["denavit.dll", "denavit.dll.lib", "denavit.lib"],
+        () if cfg!(target_os = "macos") => &["libdenavit.dylib", "libdenavit.a"],
+        () => &["libdenavit.so", "libdenavit.a"],
+    };
+    let own = folder.join(format!("c-{}-{}", std::env::consts::OS, std::env::consts::ARCH));
+    for file in files {
+        put(&target().join("dist").join(file), &own.join("lib").join(file), LIBRARY)?;
+    }
+    let headers = path(crate::c::HEADER);
+    folders::copied(headers.parent().context("a folder")?, &own.join("include"))
 }
 
 /// The wheel of this system, on Linux for every distribution of the last years (manylinux, by the linker of zig), and the source.

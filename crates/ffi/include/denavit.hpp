@@ -59,6 +59,7 @@ struct options {
     std::string base, tip, columns;
     denavit_convention convention = DENAVIT_CONVENTION_NONE;
     bool as_written = false;
+    int angles = 0, lengths = 0; // 1 radians, 2 degrees; 1 metres, 2 millimetres
     std::size_t table = 0;
     std::vector<std::string> arguments, packages; // names and values in turn
 };
@@ -204,6 +205,8 @@ class robot {
             raw.columns = some(how.columns);
             raw.convention = how.convention;
             raw.as_written = how.as_written;
+            raw.angles = how.angles;
+            raw.lengths = how.lengths;
             raw.table = how.table;
             raw.arguments = arguments.data();
             raw.arguments_length = arguments.size();

@@ -1,7 +1,7 @@
 //! Names, kinds of files, and findings in the files that files name.
 
 use denavit::description::{Language, TableKind};
-use denavit_load::{Content, Kind, Options, Problem, catalogue_name, close_names, listed, read};
+use denavit_load::{Content, Kind, Options, Problem, catalogue_name, close_names, listed, read, read_text};
 use std::fs;
 use std::path::PathBuf;
 
@@ -82,4 +82,27 @@ fn what_cannot_be_read() {
     let read =
         read(&name.to_string_lossy(), Kind::of("arm.csv").expect("a table"), &options).expect("a robot");
     assert!(matches!(read.content, Content::Rows(_)));
+}
+
+#[test]
+fn texts_are_read_as_what_they_look_like() {
+    let urdf = "<?xml version='1.0'?><robot name='r'><link name='a'/></robot>";
+    let toml = "name = 'r'\nconvention = 'craig'\n[[joints]]\ntheta = 'q1'\n";
+    let table = "| theta | d | a | alpha |\n|---|---|---|---|\n| q1 | 0 | 1 | 0 |\n";
+    for (text, kind) in [
+        (urdf, Kind::Bodies),
+        (toml, Kind::Robot),
+        (table, Kind::Table(TableKind::Markdown)),
+        ("", Kind::Table(TableKind::Markdown)),
+    ] {
+        assert_eq!(Kind::of_text(text), kind, "{text}");
+    }
+    let read = read_text("mine", toml.into(), Kind::Robot, &Options::default()).expect("a robot");
+    assert_eq!(read.content.chain("mine", None, None, None).map(|c| c.0.variables().len()), Ok(1));
+    let wrong = read_text("mine", toml.replace("q1", "q1 +").into(), Kind::Robot, &Options::default());
+    let Err(Problem::Errors(findings)) = wrong else { panic!("a sum that breaks off") };
+    assert_eq!(findings.first().map(|f| (&*f.name, f.is_error())), Some(("mine", true)));
+    let packages = vec![("p".into(), "no/such/folder".into())];
+    let nowhere = read_text("mine", urdf.into(), Kind::Bodies, &Options { packages, ..Options::default() });
+    assert!(matches!(nowhere, Err(Problem::NoFolder(_))));
 }
