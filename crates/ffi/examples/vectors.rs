@@ -114,8 +114,9 @@ fn chain(out: &mut String, convention: usize, rows: &[Row], limited: bool, rando
         Err(why) => panic!("{why}"),
     };
     let n = robot.joints;
-    let mut states: Vec<Vec<f64>> =
-        (0..if n > 6 { 1 } else { STATES }).map(|_| (0..n).map(|_| 2.0 * PI * random.unit() - PI).collect()).collect();
+    let mut states: Vec<Vec<f64>> = (0..if n > 6 { 1 } else { STATES })
+        .map(|_| (0..n).map(|_| 2.0 * PI * random.unit() - PI).collect())
+        .collect();
     // The last one is singular where there is a wrist: its middle joint is straight.
     states.push((0..n).map(|j| if j == 4 { 0.0 } else { 0.3 * j as f64 - 0.5 }).collect());
     let _ = writeln!(out, "states {}", states.len());
