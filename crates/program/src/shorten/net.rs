@@ -364,8 +364,8 @@ impl Net {
         collected(all)
     }
 
-    /// The terms of a sum with some of them written out, if they are fewer then, and each is there once.
-    fn shorter(&self, terms: &[Term], inner: &[u32]) -> Option<Vec<(u32, i64)>> {
+    /// The terms of a sum with some of them written out, if each is there once, and how many more they are then.
+    fn written(&self, terms: &[Term], inner: &[u32]) -> Option<(i64, Vec<(u32, i64)>)> {
         let mut more = -(inner.len() as i64);
         let written = self.written_out(terms, inner);
         for &(id, k) in &written {
@@ -379,10 +379,30 @@ impl Net {
             }
         }
         let rest = terms.iter().filter(|t| !inner.contains(&t.id)).map(|t| (t.id, t.sign()));
-        (more < 0).then(|| collected(rest.chain(written).collect()))
+        (more <= 0).then(|| (more, collected(rest.chain(written).collect())))
     }
 
-    /// Writes out shared sums, one or two of them, in sums of which less is left then.
+    /// What a sum is with some of its terms written out: fewer terms, or a sum that is there already or the opposite of one:
+    /// `(a + x) − (b + x)` beside `a − b`.
+    fn shorter(&self, id: u32, terms: &[Term], inner: &[u32]) -> Option<Vec<(u32, i64)>> {
+        let (more, all) = self.written(terms, inner)?;
+        if more < 0 { Some(all) } else { self.equal_sum(id, &all).map(|equal| vec![equal]) }
+    }
+
+    /// Another sum of these terms, or of their opposites, and its sign.
+    fn equal_sum(&self, id: u32, all: &[(u32, i64)]) -> Option<(u32, i64)> {
+        let rare = all.iter().min_by_key(|t| self.readers[t.0 as usize].len())?;
+        let sign = |other: u32| {
+            let own = self.sum(other).filter(|own| own.len() == all.len() && own.len() > 1)?;
+            let is_same =
+                |sign: &i64| own.iter().zip(all).all(|(t, &(o, k))| t.id == o && t.sign() == sign * k);
+            [1, -1].into_iter().find(is_same)
+        };
+        let equal = self.readers(rare.0).filter(|&other| other != id);
+        equal.filter_map(|other| Some((other, sign(other)?))).min()
+    }
+
+    /// Writes out shared sums, one or two of them, in sums of which less is left then, or what another sum is.
     fn cancel(&mut self) -> bool {
         let mut any = false;
         self.pass += 1;
@@ -429,9 +449,9 @@ impl Net {
             return None;
         }
         let mut single = sums.iter().filter(|&&s| is_own || is_new(s));
-        single.find_map(|&s| self.shorter(terms, &[s])).or_else(|| {
+        single.find_map(|&s| self.shorter(id, terms, &[s])).or_else(|| {
             let few = if sums.len() <= PAIRED { &sums[..] } else { &[] };
-            (0..few.len()).find_map(|i| (0..i).find_map(|j| self.shorter(terms, &[few[j], few[i]])))
+            (0..few.len()).find_map(|i| (0..i).find_map(|j| self.shorter(id, terms, &[few[j], few[i]])))
         })
     }
 }

@@ -43,6 +43,10 @@ fn each_rule_saves() {
     check(&[("f", squares), ("g", squares - y * y)], 2, 1);
     check(&[("f", x - y), ("g", z + y), ("h", (x - y) + (z + y))], 0, 3);
     check(&[("f", (x + y) * u), ("g", (z - y) * v), ("h", ((x + y) + (z - y)) * w)], 3, 3);
+    // Written out it is another sum, or the opposite of one.
+    let (a, b) = (x + u, y + u);
+    check(&[("f", a * v), ("g", b * w), ("h", (a - b) * z), ("k", (x - y) * q)], 4, 3);
+    check(&[("f", a * v), ("g", b * w), ("h", (b - a) * z), ("k", (x - y) * q)], 4, 3);
     // What several sums or products have in common, up to the sign.
     check(&[("f", x + y + z), ("g", u - x - y)], 0, 3);
     check(&[("f", x * y * z), ("g", u * (x * y))], 3, 0);
