@@ -37,6 +37,8 @@ pub(super) struct Arm {
     pub base: V3,
     angles: Vec<(Expr, u8)>,
     known: FxHashMap<(usize, usize), Option<(Value, Value)>>,
+    /// The names of links' numbers, by their letters.
+    numbers: FxHashMap<(&'static str, usize), Expr>,
     /// The masses that slides keep: names along x, y and z, and of the first moment; none where nothing is kept.
     pub slides: Vec<Option<[Option<Symbol>; 6]>>,
 }
@@ -86,7 +88,7 @@ const SECOND: [&str; 5] = ["SXX", "SYY", "SXY", "SXZ", "SYZ"];
 const TENSOR: [&str; 6] = ["XX", "YY", "XY", "XZ", "YZ", "ZZ"];
 
 /// The name of a number of a link, from 0.
-pub(super) fn name(letters: &str, link: usize) -> Symbol {
+fn name(letters: &str, link: usize) -> Symbol {
     // Not to be mistaken for a base parameter.
     Symbol::new(&format!("{letters}P{}", link + 1))
 }
@@ -141,7 +143,12 @@ impl Arm {
             }));
         }
         let base = arm.gravity.0.map(|e| unit.scaled(-e, graph));
-        Arm { axes, base, angles, known: FxHashMap::default(), slides }
+        Arm { axes, base, angles, known: FxHashMap::default(), numbers: FxHashMap::default(), slides }
+    }
+
+    /// The name of a number of a link, from 0.
+    pub fn number(&mut self, letters: &'static str, link: usize) -> Expr {
+        *self.numbers.entry((letters, link)).or_insert_with(|| name(letters, link).into())
     }
 
     /// Sine and cosine of the turns of some axes together; none where none of them turns.

@@ -4,11 +4,12 @@
 //! masses are turned instead, U' = U + [−c −q̈ 0; q̈ −c 0; 2q̇ωx 2q̇ωy 0] with c = q̇(ωz + ωz'). Backward: force and moment of
 //! each link from its numbers, first moments and second moments (or the tensor), summed to the base.
 
-use super::arm::{Arm, V3, is_zero, name};
+use super::arm::{Arm, V3, is_zero};
 use super::choices::{Choices, Form, Frame, Gauge};
 use crate::description::JointKind;
 use denavit_program::{Graph, Value};
 use denavit_symbolic::Expr;
+use std::fmt;
 
 /// How a frame moves: ω, ω̇, U, differences on the diagonal of U, and products of ω.
 #[derive(Clone, Copy)]
@@ -30,12 +31,31 @@ pub(super) enum Place {
     Link(usize),
 }
 
+/// A name for a component of a link's motion or wrench: `w2gz`, `U3_12`.
+#[derive(Clone, Copy)]
+pub(super) struct Label {
+    letters: &'static str,
+    link: usize,
+    frame: Frame,
+    entry: &'static str,
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}{}{}", self.letters, self.link + 1, mark(self.frame), self.entry)
+    }
+}
+
+/// Where the entries of a vector and of a matrix stand in names.
+const COMPONENTS: [&str; 3] = ["x", "y", "z"];
+const ENTRIES: [[&str; 3]; 3] = [["_11", "_12", "_13"], ["_21", "_22", "_23"], ["_31", "_32", "_33"]];
+
 pub(super) struct Generator<'a> {
     pub graph: &'a mut Graph,
     pub arm: &'a mut Arm,
     pub choices: &'a Choices,
     /// What values are, in the order in which they were met.
-    pub names: Vec<(Value, String)>,
+    pub names: Vec<(Value, Label)>,
     motions: Vec<[Option<Motion>; 4]>,
     pub(super) zero: Value,
 }
@@ -279,18 +299,26 @@ impl<'a> Generator<'a> {
         };
         self.name("w", k, frame, m.w);
         self.name("wd", k, frame, m.wd);
-        for (i, row) in m.u.iter().enumerate() {
-            for (j, &value) in row.iter().enumerate() {
-                self.names.push((value, format!("U{}{}_{}{}", k + 1, mark(frame), i + 1, j + 1)));
-            }
+        for (row, entries) in m.u.into_iter().zip(ENTRIES) {
+            self.name_entries("U", k, frame, row, entries);
         }
         m
     }
 
-    fn name(&mut self, letters: &str, k: usize, frame: Frame, v: V3) {
-        for (value, axis) in v.into_iter().zip(["x", "y", "z"]) {
-            self.names.push((value, format!("{letters}{}{}{axis}", k + 1, mark(frame))));
-        }
+    fn name(&mut self, letters: &'static str, k: usize, frame: Frame, v: V3) {
+        self.name_entries(letters, k, frame, v, COMPONENTS);
+    }
+
+    fn name_entries(
+        &mut self,
+        letters: &'static str,
+        link: usize,
+        frame: Frame,
+        v: V3,
+        entries: [&'static str; 3],
+    ) {
+        let labels = entries.map(|entry| Label { letters, link, frame, entry });
+        self.names.extend(v.into_iter().zip(labels));
     }
 
     /// A vector of one frame in another.
@@ -401,8 +429,9 @@ impl<'a> Generator<'a> {
         torques
     }
 
-    pub(super) fn named(&mut self, letters: &str, k: usize) -> Value {
-        self.graph.trace(Expr::from(name(letters, k)))
+    pub(super) fn named(&mut self, letters: &'static str, k: usize) -> Value {
+        let name = self.arm.number(letters, k);
+        self.graph.trace(name)
     }
 
     /// Force and moment of a link about the origin of its frame, in a frame.

@@ -2,7 +2,7 @@
 
 use super::arm::{Arm, Unit, values};
 use super::choices::{Choices, Form, Frame, Gauge};
-use super::generator::Generator;
+use super::generator::{Generator, Label};
 use crate::description::{Description, JointKind};
 use crate::dynamics::base::{BaseModel, inputs};
 use crate::dynamics::grouping::Grouped;
@@ -32,7 +32,7 @@ struct Search<'a> {
     graph: Graph,
     arm: Arm,
     /// Names for values of the last candidate, the first role first.
-    names: Vec<(Value, String)>,
+    names: Vec<(Value, Label)>,
 }
 
 /// Another choice for a link.
@@ -345,8 +345,11 @@ impl<'a> Search<'a> {
         let variables = last.graph.variables().iter().chain(last.graph.parameters());
         let taken: FxHashSet<String> = variables.map(|s| s.name().to_string()).collect();
         let mut names: FxHashMap<u32, String> = FxHashMap::default();
-        for (value, name) in of_links.iter().chain(&last.names) {
-            names.entry(value.node).or_insert_with(|| name.clone());
+        for (value, name) in of_links {
+            names.entry(value.node).or_insert(name);
+        }
+        for (value, label) in &last.names {
+            names.entry(value.node).or_insert_with(|| label.to_string());
         }
         let program = Program::new(&last.graph, &results, |node| names.get(&node).cloned(), &taken);
         let read: FxHashSet<Symbol> = inputs(&program).collect();
