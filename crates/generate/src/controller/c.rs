@@ -3,7 +3,7 @@
 use super::{Controller, SAMPLES};
 use crate::Solver;
 use crate::general::MAX;
-use crate::tables::{list, wrapped};
+use crate::tables::{list, table, wrapped};
 use denavit::inverse::Goal;
 use denavit_emit::Attachment;
 
@@ -34,15 +34,13 @@ pub(super) fn attachment(own: &Controller) -> Attachment {
 
 /// The table of further motions after which all links are back.
 fn copies(own: &Controller) -> String {
-    let copies = &own.turning.copies;
-    let none = vec![vec![0.0; own.joints()]];
-    let rows = if copies.is_empty() { &none } else { copies };
+    let mut rows = vec![vec![0.0; own.joints()]];
+    rows.extend(own.turning.copies.iter().cloned());
     format!(
-        "\nenum {{\n    /* Motions of joints with gears after which all links are back, besides those in turns of one joint. */\n    \
-         ANSWER_COPIES = {}\n}};\n\nstatic const double answer_copies[{}][ANSWER_JOINTS] = {{\n{}\n}};\n",
-        copies.len(),
+        "\nenum {{\n    /* Motions of joints with gears after which all links are back, besides those in turns of one joint; the first is \
+         none. */\n    ANSWER_COPIES = {}\n}};\n\nstatic const double answer_copies[ANSWER_COPIES][ANSWER_JOINTS] = {{\n{}\n}};\n",
         rows.len(),
-        crate::tables::table(rows)
+        table(&rows)
     )
 }
 
@@ -123,7 +121,7 @@ impl Controller<'_> {
             .replace("@wrong@", wrong)
             .replace("@given_test@", &either(has_given, &given_test))
             .replace("@parameters_test@", &either(p, &parameters_test))
-            .replace("@configurations@", &crate::tables::table(&configurations))
+            .replace("@configurations@", &table(&configurations))
             .replace("@solutions@", &crate::tables::integers(&counts))
             .replace("@count@", &self.known.len().to_string())
             .replace("@twist@", twist)

@@ -256,7 +256,7 @@ fn configurations(arm: &Arm, counts: [usize; 3]) -> [Vec<Vec<f64>>; 3] {
 
 fn check(name: &'static str) {
     let arm = Arm::new(name, &robot(name));
-    let soak = [share(10_000, 300), share(2_000, 100), share(2_000, 100), share(1_000, 50)];
+    let soak = [share(10_000, 100), share(2_000, 40), share(2_000, 40), share(1_000, 20)];
     let [regular, singular, beside] = configurations(&arm, [soak[0], soak[1], soak[2]]);
     let mut faults: Vec<String> = vec![];
     let mut table = vec![];

@@ -6,6 +6,11 @@
 #ifndef @NAME@_IK_ROTATION_TOLERANCE
 #define @NAME@_IK_ROTATION_TOLERANCE 1e-5
 #endif
+/* How many poses beside a singular one are solved for what it hides. 0: such calls take as long as others, list what
+   @name@_solve finds, and say UNDECIDED, whether the arm can move with its hand still or not. */
+#ifndef @NAME@_IK_NEIGHBOURS
+#define @NAME@_IK_NEIGHBOURS 6
+#endif
 
 /* What a call says. */
 typedef enum @name@_ik_status {
@@ -14,10 +19,10 @@ typedef enum @name@_ik_status {
     /* There is no solution: the arm does not reach. */
     @NAME@_IK_NO_SOLUTION = 1,
     /* Joints can move with the hand still: solutions whose dimension is not 0 are members of families.
-       All isolated solutions that are regular are listed, too; there may be more that are singular. */
+       Isolated solutions are listed, too, as far as poses beside this one lead to them; there may be more. */
     @NAME@_IK_FAMILY = 2,
-    /* Not decided: the pose is singular, or nearly so. What is listed has the pose, with all solutions
-       that are regular; there may be more, or some although none is listed. */
+    /* Not decided: the pose is singular, or nearly so. What is listed has the pose; there may be more that
+       poses beside this one do not lead to, or some although none is listed. */
     @NAME@_IK_UNDECIDED = 3,
     /* The rotation is off by more than @NAME@_IK_ROTATION_TOLERANCE. Nothing is listed. */
     @NAME@_IK_NOT_A_ROTATION = 4,

@@ -70,7 +70,7 @@ static @name@_ik_status answer_goal(double pose[4][4], double goal[4][4], double
 static void answer_turn(double goal[4][4], const double *pose, double turn[3])
 {
     double e[3][3];
-    double length, angle, factor;
+    double length, angle;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             e[i][j] = goal[i][0] * pose[4 * j] + goal[i][1] * pose[4 * j + 1] + goal[i][2] * pose[4 * j + 2];
@@ -82,9 +82,8 @@ static void answer_turn(double goal[4][4], const double *pose, double turn[3])
     length = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2]);
     angle = atan2(length, 0.5 * (e[0][0] + e[1][1] + e[2][2] - 1.0));
     if (length > 1e-7) {
-        factor = angle / length;
         for (int i = 0; i < 3; i++) {
-            turn[i] *= factor;
+            turn[i] *= angle / length;
         }
     } else if (angle > 1.0) {
         /* Half a turn: the axis is the longest column of e + 1. */

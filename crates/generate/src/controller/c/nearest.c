@@ -38,12 +38,12 @@ typedef struct answer_best {
 static void answer_offer(
     const @name@_ik_limits *limits, const double *previous, const double *q, answer_best *best)
 {
-    for (int copy = -1; copy < ANSWER_COPIES; copy++) {
+    for (int copy = 0; copy < ANSWER_COPIES; copy++) {
         double own[ANSWER_JOINTS];
         double distance = 0.0;
         int is_within = 1;
         for (int j = 0; j < ANSWER_JOINTS; j++) {
-            own[j] = q[j] + (copy < 0 ? 0.0 : answer_copies[copy < 0 ? 0 : copy][j]);
+            own[j] = q[j] + answer_copies[copy][j];
             is_within &= answer_nearest_copy(limits, j, previous[j], &own[j]);
         }
         if (!is_within) {
@@ -187,11 +187,11 @@ static int answer_copies_within(
         return status;
     }
     for (int s = 0; s < found.count; s++) {
-        for (int copy = -1; copy < ANSWER_COPIES; copy++) {
+        for (int copy = 0; copy < ANSWER_COPIES; copy++) {
             double base[ANSWER_JOINTS], first[ANSWER_JOINTS], last[ANSWER_JOINTS], turns[ANSWER_JOINTS];
             int is_more = 1;
             for (int j = 0; j < ANSWER_JOINTS; j++) {
-                base[j] = found.solutions[s].q[j] + (copy < 0 ? 0.0 : answer_copies[copy < 0 ? 0 : copy][j]);
+                base[j] = found.solutions[s].q[j] + answer_copies[copy][j];
                 is_more = is_more && answer_copies_within(own, j, base[j], &first[j], &last[j]);
             }
             if (is_more) {

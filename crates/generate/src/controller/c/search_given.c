@@ -1,5 +1,6 @@
     {
-        double q[ANSWER_JOINTS];
+        double q[ANSWER_JOINTS], start[ANSWER_STARTS][ANSWER_JOINTS], away[ANSWER_STARTS];
+        int starts = 0;
         int is_reached = 0;
         /* From where the arm is, with the smallest motion. */
         memcpy(q, previous, sizeof q);
@@ -12,14 +13,30 @@
             @name@_ik_result found;
             double given[ANSWER_GIVEN];
             answer_spread(own, previous, sample, given);
-            (void)@name@_ik(pose, given@parameters_passed@, &found);
+            found.count = 0;
+            (void)answer_solve(goal, given@parameters_passed@, &found);
             for (int s = 0; s < found.count; s++) {
-                memcpy(q, found.solutions[s].q, sizeof q);
-                answer_offer(own, previous, q, &best);
-                (void)answer_slide(goal, q@parameters_passed@, 0, previous);
-                answer_offer(own, previous, q, &best);
+                double apart = answer_apart(previous, found.solutions[s].q);
+                int place = starts < ANSWER_STARTS ? starts++ : ANSWER_STARTS;
+                answer_offer(own, previous, found.solutions[s].q, &best);
                 is_reached = 1;
+                /* The nearest few, in order. */
+                while (place > 0 && apart < away[place - 1]) {
+                    if (place < ANSWER_STARTS) {
+                        away[place] = away[place - 1];
+                        memcpy(start[place], start[place - 1], sizeof start[place]);
+                    }
+                    place--;
+                }
+                if (place < ANSWER_STARTS) {
+                    away[place] = apart;
+                    memcpy(start[place], found.solutions[s].q, sizeof start[place]);
+                }
             }
+        }
+        for (int k = 0; k < starts; k++) {
+            (void)answer_slide(goal, start[k]@parameters_passed@, 0, previous);
+            answer_offer(own, previous, start[k], &best);
         }
         status = is_reached ? @NAME@_IK_SOLVED : @NAME@_IK_UNDECIDED;
     }

@@ -178,7 +178,7 @@ static int answer_family(
         }
     }
     /* A curve need not leave along one of the directions that were chosen. */
-    for (int number = 0; number < ANSWER_MIXTURES && count == 0; number++) {
+    for (int number = 0; number < ANSWER_MIXTURES && kernel->count > 1 && count == 0; number++) {
         double direction[ANSWER_JOINTS];
         if (answer_mixture(kernel, number, direction) && answer_follows(goal, q@parameters_passed@, direction)) {
             memcpy(motion, direction, sizeof direction);
@@ -222,19 +222,25 @@ static int answer_add(
     answer_kernel kernel;
     double close;
     answer_wrap(own.q);
+    for (int k = 0; k < result->count; k++) {
+        if (answer_apart(result->solutions[k].q, own.q) <= 1e-6) {
+            return 1;
+        }
+    }
     kernel = answer_still(goal, own.q@parameters_passed@);
     /* Where it is flat, a configuration is known to what is missing divided by the slope. */
     close = fmin(1e-3, 1e-6 + 10.0 * own.residual / fmax(kernel.least, 1e-12));
-    own.dimension = answer_family(goal, own.q@parameters_passed@, &kernel, own.motion);
     for (int k = 0; k < result->count; k++) {
         const @name@_ik_solution *known = &result->solutions[k];
         if (answer_apart(known->q, own.q) <= close) {
             return 1;
         }
-        if (known->dimension > 0 && kernel.least < answer_flat && answer_is_member(goal, known, own.q@parameters_passed@)) {
+        if (known->dimension > 0 && kernel.least < answer_flat
+            && answer_is_member(goal, known, own.q@parameters_passed@)) {
             return 1;
         }
     }
+    own.dimension = answer_family(goal, own.q@parameters_passed@, &kernel, own.motion);
     if (own.dimension > 0) {
         /* What is known already may be a member of it. */
         int left = 0;
@@ -260,7 +266,7 @@ static void answer_probe(
     double goal[4][4]@parameters_given@, @name@_ik_result *result, const @name@_ik_solution *from)
 {
     const answer_kernel kernel = answer_still(goal, from->q@parameters_passed@);
-    for (int number = 0; number < 2 * ANSWER_MIXTURES; number++) {
+    for (int number = 0; number < 2 * ANSWER_MIXTURES && kernel.count > 1; number++) {
         @name@_ik_solution found = *from;
         double direction[ANSWER_JOINTS];
         if (!answer_mixture(&kernel, number / 2, direction)) {
@@ -286,6 +292,9 @@ static @name@_ik_status answer_singular(
 {
     @name@_ik_result listed = *result;
     int is_family = 0;
+    if (ANSWER_NEIGHBOURS == 0) {
+        return @NAME@_IK_UNDECIDED;
+    }
     result->count = 0;
     for (int k = 0; k < listed.count; k++) {
         @name@_ik_solution found = listed.solutions[k];

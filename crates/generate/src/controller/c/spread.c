@@ -2,7 +2,9 @@
 enum {
     /* Joints that are given, and how many of their values are tried. */
     ANSWER_GIVEN = @given_count@,
-    ANSWER_SAMPLES = @samples@
+    ANSWER_SAMPLES = @samples@,
+    /* Solutions from which the arm is moved with its hand still. */
+    ANSWER_STARTS = 6
 };
 
 /* Values of the given joints: the previous ones first, then spread over what the limits allow. */
