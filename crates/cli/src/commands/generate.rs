@@ -21,7 +21,8 @@ use std::path::Path;
 /// # Errors
 /// If the robot cannot be read, a function is not known, a file stands in the way, or nothing can be written.
 pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
-    let named = arguments.functions.split(',').map(str::trim).filter(|f| !f.is_empty());
+    let named =
+        arguments.functions.as_deref().unwrap_or("fk,ik").split(',').map(str::trim).filter(|f| !f.is_empty());
     let functions: Result<Vec<Wanted>, String> = named.map(str::parse).collect();
     let mut functions = functions.map_err(|e| Failure::Usage(format!("--functions: {e}")))?;
     if functions.is_empty() {
@@ -46,7 +47,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         false => of_chain(arguments, functions, language),
     }?;
     if let Some(why) = &generated.refused {
-        if generated.files.is_empty() {
+        // What was asked for by its name is there, or nothing is.
+        if generated.files.is_empty() || arguments.functions.is_some() {
             return Err(Failure::Unsupported(format!("ik: {why}")));
         }
         note(&format!("warning: no ik: {why}"));

@@ -229,6 +229,23 @@ fn an_arm_without_closed_form_has_the_forward_model_only() {
     assert!(said.contains("warning: no ik: no closed form"), "{said}");
     let module = fs::read_to_string(folder.join("oblique_6r.py")).expect("the module is there");
     assert!(module.contains("def fk(") && !module.contains("def ik("));
+    // What is asked for by its name is there, or nothing is.
+    let output = denavit(&[
+        "generate",
+        "oblique-6r",
+        "--language",
+        "python",
+        "--functions",
+        "fk,ik",
+        "--output",
+        path,
+        "--force",
+    ]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code().is_some_and(|code| code > 0) && said.contains("ik: no closed form"),
+        "{said}"
+    );
 }
 
 /// Functions that move: what they are equal to, what they take, and what cannot be.
