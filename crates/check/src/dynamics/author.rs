@@ -182,6 +182,7 @@ impl Asked<'_, '_> {
             }
             Quantity::InertiaRate(..)
             | Quantity::Link(_)
+            | Quantity::Motor(_)
             | Quantity::Coordinate(..)
             | Quantity::Rate(..)
             | Quantity::Slope(..)

@@ -44,6 +44,11 @@ pub(super) fn ends(d: &Description, row: usize) -> Vec<Vector<Expr>> {
     points(d, row).ends
 }
 
+/// Where the joint of a row is, in the row's frame.
+pub(super) fn joint(d: &Description, row: usize) -> Vector<Expr> {
+    points(d, row).joints[0]
+}
+
 /// The direction of the axis of a row that moves, in its frame.
 pub(super) fn axis(d: &Description, row: usize) -> Vector<Expr> {
     points(d, row).axis
@@ -246,6 +251,7 @@ pub(super) fn bodies(
                 inertia: (n.powi(2) - one) * rotor,
                 coupled: (n - one) * rotor,
                 along: rotor,
+                mass: o,
             });
         }
     }
@@ -279,7 +285,8 @@ pub(super) fn bodies(
                 for &motor in &motors {
                     body = body + Body::about_centre(motor, points.joints[0], [o; 6]);
                 }
-                let numbers = numbers(body.parameters(), rotor_now.get(), centre);
+                let mass = motors.iter().fold(o, |sum, &motor| sum + motor);
+                let numbers = numbers(body.parameters(), Rotor { mass, ..rotor_now.get() }, centre);
                 let mut found = found.borrow_mut();
                 if found.len() < MAX_BODIES && !found.contains(&numbers) {
                     found.push(numbers);

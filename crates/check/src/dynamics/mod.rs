@@ -227,7 +227,7 @@ fn kind(quantity: Quantity) -> Dynamic {
         | Quantity::Asada(..)
         | Quantity::CoriolisEntry(..) => Dynamic::Coriolis,
         Quantity::Gravity(_) => Dynamic::Gravity,
-        Quantity::Kinetic(_) | Quantity::Link(_) => Dynamic::Kinetic,
+        Quantity::Kinetic(_) | Quantity::Link(_) | Quantity::Motor(_) => Dynamic::Kinetic,
         Quantity::Potential(_) => Dynamic::Potential,
         Quantity::Lagrangian => Dynamic::Lagrangian,
         Quantity::Energy => Dynamic::Energy,

@@ -1,7 +1,7 @@
 //! What the robot's own dynamics make of a quantity, for bodies and a gravity that are given, or that are symbols: all is linear in
 //! the numbers of each body, and affine in gravity.
 
-use super::bodies::{axis, ends};
+use super::bodies::{axis, ends, joint};
 use super::points::{self, Place};
 use super::quantity::Quantity;
 use crate::jacobians::derivative;
@@ -15,14 +15,15 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// How many numbers a link has.
-pub(super) const NUMBERS: usize = 23;
-/// Where the numbers of its [`Rotor`] stand, a one, its centre of mass, and the products of the centre's coordinates, xx xy xz yy yz zz.
+pub(super) const NUMBERS: usize = 24;
+/// Where the numbers of its [`Rotor`] stand, the mass of its motor last, a one, its centre of mass, and the products of the centre's coordinates, xx xy xz yy yz zz.
 pub(super) const ROTOR: usize = 10;
 pub(super) const COUPLED: usize = 11;
 pub(super) const ALONG: usize = 12;
-const ONE: usize = 13;
-const CENTRE: usize = 14;
-const PRODUCTS: usize = 17;
+pub(super) const MOTOR: usize = 13;
+const ONE: usize = 14;
+const CENTRE: usize = 15;
+const PRODUCTS: usize = 18;
 
 /// The ten numbers of a body about the origin of its row's frame, those of the rotor that turns it, and those of its centre of mass: all
 /// that is said of an arm is linear in them.
@@ -37,12 +38,15 @@ pub(super) struct Rotor {
     pub coupled: Expr,
     /// half the square of the rate at which the link turns about it
     pub along: Expr,
+    /// What its motor weighs, on the axis of the joint: part of the link's mass, too.
+    pub mass: Expr,
 }
 
 impl Rotor {
     /// One with an inertia as the joint feels it.
     pub fn felt(inertia: Expr) -> Self {
-        Rotor { inertia, coupled: Expr::int(0), along: Expr::int(0) }
+        let o = Expr::int(0);
+        Rotor { inertia, coupled: o, along: o, mass: o }
     }
 }
 
@@ -51,6 +55,7 @@ pub(super) fn numbers(ten: [Expr; 10], rotor: Rotor, centre: [Expr; 3]) -> Numbe
     let mut all = [Expr::int(0); NUMBERS];
     all[..10].copy_from_slice(&ten);
     (all[ROTOR], all[COUPLED], all[ALONG]) = (rotor.inertia, rotor.coupled, rotor.along);
+    all[MOTOR] = rotor.mass;
     all[ONE] = Expr::int(1);
     all[CENTRE..PRODUCTS].copy_from_slice(&centre);
     let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
@@ -87,8 +92,10 @@ pub(super) struct Model {
     gravity: Vec<Expr>,
     /// Of each body with its rotor.
     kinetic: Vec<Expr>,
-    /// Of each body alone.
+    /// Of each body without its rotor.
     of_links: Vec<Expr>,
+    /// Of the mass of each motor.
+    of_motors: Vec<Expr>,
     potential: Vec<Expr>,
     slopes: RefCell<BTreeMap<(usize, usize, usize), Option<Expr>>>,
     points: Points,
@@ -164,12 +171,18 @@ impl Model {
             arm
         };
         let each: Vec<Dynamics<Expr>> = (0..rows.len()).map(alone).collect();
+        let of_motor = |(k, body): (usize, &Numbers)| -> Option<Expr> {
+            let at = joint(&points.arm, *rows.get(k)?);
+            let arm = points.with(k, &Body::about_centre(body[MOTOR], at, [Expr::int(0); 6]))?;
+            Some(kinetic_energy(&arm, &q, &qd))
+        };
         let model = Model {
             inertia: inertia_matrix(arm, &q),
             velocity: velocity_torques(arm, &q, &qd),
             gravity: gravity_torques(arm, &q),
             kinetic: each.iter().map(|arm| kinetic_energy(arm, &q, &qd)).collect(),
             of_links: each.iter().map(|arm| kinetic_energy(&without_rotors(arm), &q, &qd)).collect(),
+            of_motors: bodies.iter().enumerate().map(of_motor).collect::<Option<_>>()?,
             potential: each.iter().map(|arm| potential_energy(arm, &q)).collect(),
             state: State { q: formulas.q, qd: formulas.qd, qdd: formulas.qdd },
             slopes: RefCell::default(),
@@ -268,6 +281,7 @@ impl Model {
             gravity: rows(all(&self.gravity)),
             kinetic: all(&self.kinetic),
             of_links: all(&self.of_links),
+            of_motors: all(&self.of_motors),
             potential: all(&self.potential),
             state: self.state.clone(),
             slopes: RefCell::default(),
@@ -313,7 +327,8 @@ impl Model {
             Quantity::Gravity(i) => self.gravity[i],
             Quantity::Kinetic(None) => all(&self.kinetic),
             Quantity::Kinetic(Some(k)) => *self.kinetic.get(k)?,
-            Quantity::Link(k) => *self.of_links.get(k)?,
+            Quantity::Link(k) => *self.of_links.get(k)? - self.of_motors[k],
+            Quantity::Motor(k) => *self.kinetic.get(k)? - self.of_links[k] + self.of_motors[k],
             Quantity::Potential(None) => all(&self.potential),
             Quantity::Potential(Some(k)) => *self.potential.get(k)?,
             Quantity::Lagrangian => all(&self.kinetic) - all(&self.potential),

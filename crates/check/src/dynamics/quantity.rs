@@ -26,8 +26,10 @@ pub(super) enum Quantity {
     Gravity(usize),
     /// T, or that of one body.
     Kinetic(Option<usize>),
-    /// T of one body without the rotor that turns it.
+    /// T of one body without the motor that turns it.
     Link(usize),
+    /// T of the motor that turns a body: of its rotor, and of its mass.
+    Motor(usize),
     /// V, or that of one body; both but for a constant.
     Potential(Option<usize>),
     /// T − V
@@ -189,6 +191,11 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
             }
             if !accelerations && rates && !gravity && is_energy(&KINETIC) {
                 found.push(Quantity::Kinetic(Some(i)));
+            }
+            // `T_{m_1}`
+            let is_motor = letters.strip_suffix('m').is_some_and(|l| KINETIC.contains(&l));
+            if !accelerations && rates && !gravity && is_motor {
+                found.push(Quantity::Motor(i));
             }
             if !accelerations && !rates && gravity && is_energy(&POTENTIAL) {
                 found.push(Quantity::Potential(Some(i)));

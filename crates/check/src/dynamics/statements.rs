@@ -452,9 +452,11 @@ impl Reader<'_> {
                     }
                 }
             }
-            // The energy of a link may be that without its rotor.
+            // There may be motors, and the energy of a link that without its own.
+            let turns = self.has_rotors() || self.has_motors();
+            candidates.retain(|q| turns || !matches!(q, Quantity::Motor(_)));
             let of_link = |q: &Quantity| match q {
-                Quantity::Kinetic(Some(k)) if self.has_rotors() => Some(Quantity::Link(*k)),
+                Quantity::Kinetic(Some(k)) if turns => Some(Quantity::Link(*k)),
                 _ => None,
             };
             let of_links: Vec<Quantity> = candidates.iter().filter_map(of_link).collect();
@@ -465,7 +467,9 @@ impl Reader<'_> {
                 candidates.retain(|q| matches!(q, Quantity::Inertia(..)));
             }
             // `(M + m) \ddot x + … = F`, `… = 0`: the equation of some joint.
-            let is_energy = |q: &Quantity| matches!(q, Quantity::Kinetic(_) | Quantity::Potential(_));
+            let is_energy = |q: &Quantity| {
+                matches!(q, Quantity::Kinetic(_) | Quantity::Motor(_) | Quantity::Potential(_))
+            };
             let names_quantity = !candidates.is_empty();
             if candidates.is_empty() && is_nameless && content.accelerations {
                 candidates.extend((0..self.n).map(Quantity::Torque));

@@ -84,7 +84,14 @@ fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>, letter
         let is_jacobian = has_jacobians && w.starts_with('J');
         let numbered = matches!(
             role(w, JOINTS),
-            Some(Role::Mass(Some(_)) | Role::Inertia(Some(_)) | Role::About(..) | Role::Ten(..))
+            Some(
+                Role::Mass(Some(_))
+                    | Role::Motor(_)
+                    | Role::Rotor(Some(_))
+                    | Role::Inertia(Some(_))
+                    | Role::About(..)
+                    | Role::Ten(..)
+            )
         );
         // `M_1 = [4 × 4]` is a matrix of this name.
         let is_matrix = matches!(role(w, JOINTS), Some(Role::Mass(_))) && matrices.contains(w);

@@ -114,6 +114,7 @@ fn derivations_by_lagrange_are_read_step_by_step() {
     all_right(document!("elevation.md"), 9);
     all_right(document!("telescope.md"), 10);
     all_right(document!("motors.md"), 10);
+    all_right(document!("motors_energies.md"), 6);
     // A square of a speed with a slip, and the energy in which it is.
     wrong(
         document!("lagrange_factor.md"),
@@ -122,6 +123,8 @@ fn derivations_by_lagrange_are_read_step_by_step() {
     wrong(document!("centres_derived_sign.md"), &[("y_{c2}", Standing::Wrong, "-", "+")]);
     wrong(document!("elevation_sine.md"), &[("J_{v_{c2}}", Standing::Wrong, "c_2", "s_2")]);
     wrong(document!("motors_exponent.md"), &[("b_{12}", Standing::Wrong, "^2", "")]);
+    // A square: of the two signs the first may be the other, too.
+    wrong(document!("motors_energies_sign.md"), &[("T_{m_2}", Standing::Wrong, "", "-")]);
 }
 
 #[test]
