@@ -103,22 +103,24 @@ pub struct Library<'a> {
     pub precision: Precision,
 }
 
-/// A function that is no program, written out in the language of the library (C, Rust, IkFast; other languages leave it out).
+/// A function that is no program, written out in the language of the library (CUDA leaves it out).
 ///
-/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in C and Rust,
+/// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in all but IkFast,
 /// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters; in files for Rust,
-/// `@Parameters(1.5, 2.0)@` for these values of all parameters.
+/// and in Python, JavaScript and MATLAB, `@Parameters(1.5, 2.0)@` for these values of all parameters.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Attachment {
     /// Its name, such as `inverse`.
     pub name: String,
     /// What callers see: C, for the header; Rust, for the root of the package; IkFast, for the namespace, ahead of all functions.
+    /// Python: what is imported, a line each.
     pub declarations: String,
-    /// C: for the source file. IkFast: for the namespace, behind the functions.
+    /// C: for the source file. IkFast: for the namespace, behind the functions. Python, JavaScript: for the end of the module.
     pub definitions: String,
     /// IkFast: for the file, ahead of the namespace and behind it.
     pub around: [String; 2],
-    /// C: for the test, with a function `test_…` of the attachment's name. IkFast: the test.
+    /// C: for the test, with a function `test_…` of the attachment's name. IkFast: the test. Python: classes of tests. JavaScript,
+    /// MATLAB: tests.
     pub test: String,
     /// Files of its own, besides.
     pub files: Vec<File>,
@@ -135,6 +137,16 @@ impl Attachment {
         self.files
             .iter()
             .map(|f| File { path: Self::named(&f.path, library), text: Self::named(&f.text, library) })
+    }
+
+    /// A text with what `value` makes of the values in place of `@Parameters(…)@`, if that is there.
+    pub(crate) fn with_values(text: String, value: impl Fn(&[&str]) -> String) -> String {
+        let parts = text.split_once("@Parameters(").and_then(|(a, rest)| Some((a, rest.split_once(")@")?)));
+        let made = parts.map(|(before, (values, after))| {
+            let values: Vec<&str> = values.split(", ").collect();
+            format!("{before}{}{after}", value(&values))
+        });
+        made.unwrap_or(text)
     }
 
     /// A text with `, parameters` or nothing where functions are called, each by whether it reads none.

@@ -147,12 +147,8 @@ impl PackageOptions {
     fn has_controller(&self) -> bool {
         match self.language {
             Language::C => self.precision == Precision::Double,
-            Language::Rust => true,
-            Language::Python
-            | Language::Matlab
-            | Language::JavaScript
-            | Language::Cuda
-            | Language::IkFast => false,
+            Language::Rust | Language::Python | Language::JavaScript | Language::Matlab => true,
+            Language::Cuda | Language::IkFast => false,
         }
     }
 
@@ -326,7 +322,8 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     }
     if let (true, Some(solver)) = (options.has_controller(), solver) {
         let (more, values) = dynamic.as_ref().map_or((0, vec![]), |x| (x.variables.len(), x.values()));
-        let controller = Controller::new(d, solver, variables.len() + more, &values);
+        let has_defaults = parameters.iter().all(|p| p.default.is_some());
+        let controller = Controller::new(d, solver, variables.len() + more, &values, has_defaults);
         about.extend(controller.header());
         attachments.push(controller.attachment(options.language));
     }

@@ -31,11 +31,16 @@ pub fn list(values: &[f64], indent: usize) -> String {
 
 /// Lines of bounded length behind a prefix; those after the first are indented by `more`.
 pub fn wrapped(prefix: &str, text: &str, more: &str) -> String {
+    wrapped_in(WIDTH, prefix, text, more)
+}
+
+/// The same in lines of a width.
+pub fn wrapped_in(width: usize, prefix: &str, text: &str, more: &str) -> String {
     let mut lines = String::new();
     let mut line = prefix.to_string();
     let mut is_empty = true;
     for word in text.split(' ') {
-        if !is_empty && line.len() + 1 + word.len() > WIDTH {
+        if !is_empty && line.len() + 1 + word.len() > width {
             let _ = writeln!(lines, "{}", line.trim_end());
             line = format!("{prefix}{more}");
             is_empty = true;

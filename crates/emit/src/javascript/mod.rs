@@ -3,6 +3,7 @@
 //! Functions write into arrays of the caller's. The formulas stand in one private function per routine, for one row;
 //! what depends on parameters alone is computed before and handed to it.
 
+mod attached;
 mod solver;
 mod test;
 
@@ -142,6 +143,7 @@ impl<'a> Module<'a> {
             lines.push("}".into());
         }
         lines.extend(self.solvers());
+        lines.extend(self.attached().lines().map(str::to_string));
         lines.extend(REQUIRE_NUMBERS.lines().map(str::to_string));
         if self.library.routines.iter().any(|r| !self.parameters_of(r).is_empty())
             || self.plans.iter().any(|p| !self.parameters_of_solver(p).is_empty())

@@ -1,7 +1,7 @@
 //! The test that goes along with a module: stored configurations, alone and together, and what is refused.
 
 use crate::Routine;
-use crate::javascript::{Functions, Module, WRAP, call};
+use crate::javascript::{Functions, Module, WRAP, attached, call};
 
 impl Module<'_> {
     pub(super) fn tests(&self) -> Vec<String> {
@@ -12,6 +12,8 @@ impl Module<'_> {
         }
         let solvers: Vec<String> = self.plans.iter().flat_map(|p| [p.name.clone(), self.labels(p)]).collect();
         imports.extend(solvers.iter().map(String::as_str));
+        let attached = self.attached();
+        imports.extend(attached::functions(&attached));
         imports.sort_unstable();
         lines.extend(
             [
@@ -55,6 +57,7 @@ function check(actual, expected, scales) {
             lines.extend(self.test(routine, functions));
         }
         self.plans.iter().for_each(|plan| lines.extend(self.solver_test(plan)));
+        lines.extend(self.attached_tests().lines().map(str::to_string));
         lines
     }
 

@@ -3,6 +3,7 @@
 //! Rows are configurations; matrices come as pages. The comment that opens a file stands behind the function line,
 //! where `help` and `lookfor` look for it.
 
+mod attached;
 mod solver;
 
 use crate::blocks::{blocks, reads};
@@ -45,6 +46,7 @@ pub(crate) fn emit(library: &Library) -> Vec<File> {
     if !library.parameters.is_empty() {
         files.push(file(&module.parameters, module.parameters()));
     }
+    files.extend(module.attached());
     files.push(file(&module.test, module.tests()));
     files
 }
@@ -405,6 +407,7 @@ impl Module<'_> {
         for (plan, function) in self.plans.iter().zip(&self.solvers) {
             lines.extend(self.solver_test(plan, function));
         }
+        lines.extend(self.attached_tests().lines().map(String::from));
         if let Some(p) = self.library.parameters.first() {
             let text = r"
 % A parameter is a number.

@@ -2,6 +2,7 @@
 //!
 //! Functions take arrays of any leading shape: every operation is one on whole arrays.
 
+mod attached;
 mod solver;
 mod test;
 
@@ -14,6 +15,7 @@ use crate::wrap::{Wrap, comments, prose};
 use crate::{File, Language, Library, Parameter, Precision, Routine};
 use denavit_symbolic::{Expr, Symbol};
 use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
 
 /// PEP 8 as formatters have it.
 const WRAP: Wrap = Wrap { width: 88, step: 4, sign_leads: true, goes_on: "", brackets: ["(", ")"] };
@@ -161,13 +163,11 @@ impl<'a> Module<'a> {
         }
         lines.extend(documentation(&about, 0));
         lines.push(String::new());
-        if has_parameters {
-            lines.push("from dataclasses import dataclass".into());
-        }
-        if !self.plans.is_empty() {
-            lines.push("from typing import NamedTuple".into());
-        }
-        if has_parameters || !self.plans.is_empty() {
+        let mut imports: BTreeSet<&str> = self.imports().collect();
+        imports.extend(has_parameters.then_some("from dataclasses import dataclass"));
+        imports.extend((!self.plans.is_empty()).then_some("from typing import NamedTuple"));
+        lines.extend(imports.iter().map(|line| line.to_string()));
+        if !imports.is_empty() {
             lines.push(String::new());
         }
         let arrays = if self.functions.is_empty() { "" } else { ", NDArray" };
@@ -182,7 +182,9 @@ impl<'a> Module<'a> {
         let classes: Vec<String> = self.plans.iter().map(solver::class).collect();
         let constants = constants.iter().copied().chain(labels.iter().chain(&classes).map(String::as_str));
         let solvers = self.plans.iter().map(|p| p.name.as_str());
-        let public = constants.chain(self.functions.iter().map(String::as_str)).chain(solvers);
+        let attached = self.attached();
+        let others = attached::public(&attached);
+        let public = constants.chain(self.functions.iter().map(String::as_str)).chain(solvers).chain(others);
         let public: Vec<String> = public.map(|name| format!("\"{name}\"")).collect();
         let all = format!("__all__ = [{}]", public.join(", "));
         if all.len() <= WRAP.width {
@@ -200,6 +202,7 @@ impl<'a> Module<'a> {
             lines.extend(self.function(routine, function));
         }
         lines.extend(self.solvers());
+        lines.extend(attached.lines().map(String::from));
         lines
     }
 

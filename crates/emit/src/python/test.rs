@@ -62,6 +62,7 @@ impl Module<'_> {
             lines.extend(self.test(routine, function));
         }
         self.plans.iter().for_each(|plan| lines.extend(self.solver_test(plan)));
+        lines.extend(self.attached_tests().lines().map(String::from));
         let required = self.library.parameters.iter().find(|p| p.default.is_none());
         if let Some(required) = required {
             lines.extend(["", "", "class Missing(unittest.TestCase):"].map(String::from));

@@ -13,21 +13,14 @@ impl Source<'_> {
         let files = self.library.attachments.iter().flat_map(|a| a.named_files(&self.name));
         files.map(move |file| {
             let text = Attachment::called(file.text, of_functions().chain(of_solvers()));
-            File { text: self.with_values(text), ..file }
+            let text = Attachment::with_values(text, |values| {
+                let fields = self.library.parameters.iter().zip(values);
+                let fields: Vec<String> =
+                    fields.map(|(p, value)| format!("{}: {value}", self.names.of(p.symbol))).collect();
+                format!("Parameters {{ {} }}", fields.join(", "))
+            });
+            File { text, ..file }
         })
-    }
-
-    /// A text with structures in place of values of parameters.
-    fn with_values(&self, text: String) -> String {
-        let Some((before, (values, after))) =
-            text.split_once("@Parameters(").and_then(|(before, rest)| Some((before, rest.split_once(")@")?)))
-        else {
-            return text;
-        };
-        let fields = self.library.parameters.iter().zip(values.split(", "));
-        let fields: Vec<String> =
-            fields.map(|(p, value)| format!("{}: {value}", self.names.of(p.symbol))).collect();
-        format!("{before}Parameters {{ {} }}{after}", fields.join(", "))
     }
 
     /// Whether the file of an attachment calls something of the kernel.

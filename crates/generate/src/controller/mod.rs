@@ -6,6 +6,9 @@
 //! found: an isolated solution with a Jacobian of full rank has neighbours at all poses nearby.
 
 mod c;
+mod javascript;
+mod matlab;
+mod python;
 mod rust;
 
 use super::{Solver, samples};
@@ -34,6 +37,8 @@ pub(super) struct Controller<'a> {
     /// Numbers that functions of the joints take: the joint variables, and those of dynamics.
     variables: usize,
     has_parameters: bool,
+    /// Whether all of them have values where the caller gives none.
+    has_defaults: bool,
     /// Configurations of which `solve` is known to list all solutions, and how many they are.
     known: Vec<(Vec<f64>, usize)>,
     /// Values of the parameters in the test.
@@ -42,7 +47,13 @@ pub(super) struct Controller<'a> {
 
 impl<'a> Controller<'a> {
     /// For an arm in a folder whose functions take so many numbers, and values of parameters beyond those of the joints.
-    pub fn new(d: &Description, solver: Solver<'a>, variables: usize, more: &[f64]) -> Self {
+    pub fn new(
+        d: &Description,
+        solver: Solver<'a>,
+        variables: usize,
+        more: &[f64],
+        has_defaults: bool,
+    ) -> Self {
         let robot = Robot::numeric(&samples::valued(d));
         let robot = robot.expect("each parameter has a value");
         let space = JointSpace::new(d, &robot);
@@ -76,6 +87,7 @@ impl<'a> Controller<'a> {
                 Solver::General(general) => general.regular(),
             },
             has_parameters: !parameters.is_empty(),
+            has_defaults,
             parameters,
         }
     }
@@ -84,6 +96,9 @@ impl<'a> Controller<'a> {
     pub fn attachment(&self, language: Language) -> Attachment {
         match language {
             Language::Rust => rust::attachment(self),
+            Language::Python => python::attachment(self),
+            Language::JavaScript => javascript::attachment(self),
+            Language::Matlab => matlab::attachment(self),
             _ => c::attachment(self),
         }
     }

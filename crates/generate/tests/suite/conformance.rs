@@ -7,7 +7,7 @@ use denavit::inverse::{Answer, Goal, InverseKinematics, InverseOptions};
 use denavit::space::JointSpace;
 use denavit::{Description, Robot};
 use denavit_emit::{Language, Precision};
-use denavit_generate::{PackageOptions, Wanted, generate};
+use denavit_generate::{Inverse, PackageOptions, Wanted, generate};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 use std::fs;
@@ -70,6 +70,69 @@ int main(void) {
 }
 "#;
 
+/// The same in another language: what its program is called with, ahead of the file that runs.
+struct Twin {
+    language: Language,
+    command: &'static [&'static str],
+    file: &'static str,
+    driver: &'static str,
+}
+
+const PYTHON: Twin = Twin {
+    language: Language::Python,
+    command: &["-B", "-W", "error"],
+    file: "driver.py",
+    driver: "
+import sys
+import arm
+for line in sys.stdin:
+    numbers = [float(x) for x in line.split()]
+    pose, given = [numbers[k : k + 4] for k in (0, 4, 8)], numbers[12:]
+    result = arm.ik(pose@given@)
+    answer = [int(result.status), len(result.solutions)]
+    for s in result.solutions:
+        answer += [s.dimension, *s.q.tolist()]
+    print(*answer)
+",
+};
+
+const JAVASCRIPT: Twin = Twin {
+    language: Language::JavaScript,
+    command: &[],
+    file: "driver.mjs",
+    driver: r#"
+import { readFileSync } from "node:fs";
+import { ik } from "./arm.js";
+const words = ["solved", "no solution", "family", "undecided", "not a rotation", "not finite"];
+for (const line of readFileSync(0, "utf8").trim().split("\n")) {
+  const numbers = line.trim().split(" ").map(Number);
+  const given = numbers.slice(12);
+  const result = ik(numbers.slice(0, 12)@given@);
+  const solutions = result.solutions.flatMap((s) => [s.dimension, ...s.q]);
+  console.log([words.indexOf(result.status), result.solutions.length, ...solutions].join(" "));
+}
+"#,
+};
+
+const OCTAVE: Twin = Twin {
+    language: Language::Matlab,
+    command: &["--no-gui", "--quiet"],
+    file: "driver.m",
+    driver: r"
+words = {'solved', 'no solution', 'family', 'undecided', 'not a rotation', 'not finite'};
+while ischar(line = fgetl(stdin))
+    numbers = sscanf(line, '%f').';
+    given = numbers(13:end);
+    result = arm_ik(reshape(numbers(1:12), 4, 3).'@given@);
+    printf('%d %d', find(strcmp(words, result.status)) - 1, numel(result.solutions));
+    for s = result.solutions.'
+        printf(' %.17g', s.dimension, s.q);
+    end
+    printf('\n');
+end
+",
+};
+
 /// An arm whose functions were compiled.
 struct Arm {
     name: &'static str,
@@ -88,25 +151,10 @@ struct Coded {
 }
 
 impl Arm {
-    fn new(name: &'static str, d: &Description) -> Arm {
-        let options = PackageOptions {
-            language: Language::C,
-            functions: vec![Wanted::Inverse],
-            inverse: InverseOptions { goal: Goal::Pose, given: None },
-            precision: Precision::Double,
-            name: Some("arm".into()),
-            masses: None,
-            loads: denavit::dynamics::Loads::default(),
-            fixed: true,
-        };
-        let generated = generate(d, &options).expect("parameters have values");
-        let facts = generated.inverse.unwrap_or_else(|| panic!("{name}: {:?}", generated.refused));
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conformance-{name}"));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("it can be made");
-        for file in &generated.files {
-            fs::write(folder.join(&file.path), &file.text).expect("it can be written");
-        }
+    /// Of a test, which has a folder of its own.
+    fn new(test: &str, name: &'static str, d: &Description) -> Arm {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{test}-{name}"));
+        let facts = written(d, Language::C, &folder);
         let robot = Robot::numeric(d).expect("parameters have values");
         let names: Vec<_> = d.variables().iter().map(|v| v.symbol).collect();
         let given: Vec<usize> =
@@ -128,7 +176,12 @@ impl Arm {
         Arm { name, robot, space, solver, given, folder }
     }
 
+    /// What the code in C answers to poses with the values of given joints.
     fn coded(&self, poses: &[(Transform<f64>, Vec<f64>)]) -> Vec<Coded> {
+        self.answered(&mut Command::new(self.folder.join("driver")), poses)
+    }
+
+    fn answered(&self, command: &mut Command, poses: &[(Transform<f64>, Vec<f64>)]) -> Vec<Coded> {
         let mut text = String::new();
         for (pose, given) in poses {
             let m = pose.matrix();
@@ -139,7 +192,8 @@ impl Arm {
         let input = self.folder.join("poses");
         fs::write(&input, text).expect("it can be written");
         let input = fs::File::open(input).expect("it is there");
-        let output = Command::new(self.folder.join("driver")).stdin(input).output().expect("it runs");
+        let output = command.stdin(input).output().expect("it runs");
+        assert!(output.status.success(), "{}: {}", self.name, String::from_utf8_lossy(&output.stderr));
         let text = String::from_utf8_lossy(&output.stdout);
         let all: Vec<Coded> = text.lines().map(|line| self.line(line)).collect();
         assert_eq!(all.len(), poses.len(), "{}: a line a pose", self.name);
@@ -229,6 +283,28 @@ impl Arm {
     }
 }
 
+/// Writes the functions into an empty folder.
+fn written(d: &Description, language: Language, folder: &Path) -> Inverse {
+    let options = PackageOptions {
+        language,
+        functions: vec![Wanted::Inverse],
+        inverse: InverseOptions { goal: Goal::Pose, given: None },
+        precision: Precision::Double,
+        name: Some("arm".into()),
+        masses: None,
+        loads: denavit::dynamics::Loads::default(),
+        fixed: true,
+    };
+    let generated = generate(d, &options).expect("parameters have values");
+    let _ = fs::remove_dir_all(folder);
+    for file in &generated.files {
+        let path = folder.join(&file.path);
+        fs::create_dir_all(path.parent().expect("it is in a folder")).expect("it can be made");
+        fs::write(path, &file.text).expect("it can be written");
+    }
+    generated.inverse.unwrap_or_else(|| panic!("{:?}", generated.refused))
+}
+
 /// Regular configurations; with joints at multiples of a quarter turn; beside these.
 fn configurations(arm: &Arm, counts: [usize; 3]) -> [Vec<Vec<f64>>; 3] {
     let mut random = Random(0x23);
@@ -255,7 +331,7 @@ fn configurations(arm: &Arm, counts: [usize; 3]) -> [Vec<Vec<f64>>; 3] {
 }
 
 fn check(name: &'static str) {
-    let arm = Arm::new(name, &robot(name));
+    let arm = Arm::new("conformance", name, &robot(name));
     let soak = [share(10_000, 100), share(2_000, 40), share(2_000, 40), share(1_000, 20)];
     let [regular, singular, beside] = configurations(&arm, [soak[0], soak[1], soak[2]]);
     let mut faults: Vec<String> = vec![];
@@ -337,4 +413,61 @@ arms! {
     gantry 9
     panda 10
     crx 11
+}
+
+/// Arms that other languages are held to C at.
+const TWINS: [&str; 4] = ["planar-3r", "scara", "ur5", "franka-panda"];
+
+/// Whether a program is there.
+fn has(words: &[&str]) -> bool {
+    Command::new(words[0]).args(&words[1..]).output().is_ok_and(|o| o.status.success())
+}
+
+/// The code in another language answers as that in C does: the same status, the same isolated solutions, and members of families
+/// that have the pose. Of a family, which members come may depend on rounding.
+fn agree(twin: &Twin, program: &str, counts: [usize; 3]) {
+    for name in TWINS {
+        let d = robot(name);
+        let arm = Arm::new(&format!("twin-{:?}", twin.language), name, &d);
+        let folder = arm.folder.join("twin");
+        written(&d, twin.language, &folder);
+        let driver = twin.driver.replace("@given@", if arm.given.is_empty() { "" } else { ", given" });
+        fs::write(folder.join(twin.file), driver).expect("it can be written");
+        let all: Vec<Vec<f64>> = configurations(&arm, counts).concat();
+        let given = |q: &[f64]| arm.given.iter().map(|&j| q[j]).collect();
+        let poses: Vec<_> = all.iter().map(|q| (arm.robot.pose(q), given(q))).collect();
+        let mut command = Command::new(program);
+        let own = arm.answered(command.args(twin.command).arg(twin.file).current_dir(&folder), &poses);
+        let same = |pose, a: &[Vec<f64>], b: &[Vec<f64>]| {
+            a.len() == b.len() && a.iter().all(|s| b.iter().any(|t| arm.is_same(pose, s, t, 0.0)))
+        };
+        for (((pose, _), q), (a, b)) in poses.iter().zip(&all).zip(own.iter().zip(&arm.coded(&poses))) {
+            assert_eq!(a.status, b.status, "{name} {q:?}");
+            assert!(same(pose, &a.isolated, &b.isolated), "{name} {q:?}: {:?} {:?}", a.isolated, b.isolated);
+            assert_eq!(a.members.is_empty(), b.members.is_empty(), "{name} {q:?}");
+            assert!(a.members.iter().all(|s| arm.missed(pose, s) <= 1e-8), "{name} {q:?}: {:?}", a.members);
+        }
+    }
+}
+
+#[test]
+fn python_answers_as_c_does() {
+    let python = std::env::var("DENAVIT_PYTHON").unwrap_or("python3".into());
+    if has(&[&python, "-c", "import numpy"]) {
+        agree(&PYTHON, &python, [12, 8, 4]);
+    }
+}
+
+#[test]
+fn javascript_answers_as_c_does() {
+    if has(&["node", "--version"]) {
+        agree(&JAVASCRIPT, "node", [40, 30, 20]);
+    }
+}
+
+#[test]
+fn octave_answers_as_c_does() {
+    if has(&["octave", "--version"]) {
+        agree(&OCTAVE, "octave", [8, 3, 1]);
+    }
 }
