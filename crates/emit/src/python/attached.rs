@@ -1,6 +1,6 @@
 //! Attachments, behind the other functions of a module.
 
-use super::{Module, float};
+use super::{Module, WRAP, float};
 use crate::Attachment;
 
 impl Module<'_> {
@@ -33,7 +33,12 @@ impl Module<'_> {
             let fields = self.library.parameters.iter().zip(values);
             let fields: Vec<String> =
                 fields.map(|(p, value)| format!("{}={}", self.names.of(p.symbol), float(value))).collect();
-            format!("{scope}Parameters({})", fields.join(", "))
+            let whole = format!("{scope}Parameters({})", fields.join(", "));
+            // Behind a name, in a class.
+            if whole.len() + 20 <= WRAP.width {
+                return whole;
+            }
+            format!("{scope}Parameters(\n{}\n    )", WRAP.list(&fields, 8).join("\n"))
         })
     }
 }

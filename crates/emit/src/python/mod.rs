@@ -111,10 +111,13 @@ impl<'a> Module<'a> {
         let (Some(function), Some(routine)) = (self.functions.first(), self.library.routines.first()) else {
             return vec![];
         };
-        let (name, n) = (&self.name, self.library.variables.len());
+        let n = self.library.variables.len();
         let mut lines = vec!["Examples".to_string(), "--------".into()];
         lines.push(">>> import numpy as np".into());
-        lines.push(format!(">>> import {name}"));
+        // A call must fit into a line.
+        let is_long = self.name.len() > MAX_FUNCTION;
+        let name = if is_long { "formulas" } else { &self.name };
+        lines.push(format!(">>> import {}{}", self.name, if is_long { " as formulas" } else { "" }));
         let given = if self.is_parametric(routine) && !self.has_defaults() {
             let one = |p: &Parameter| {
                 let value = float(&self.number(p.default.unwrap_or(1.0)));
