@@ -9,10 +9,10 @@ function result = @name@_ik(pose@given_local@@parameters_given@)
 %     'solved'          what is listed is all
 %     'no solution'     the arm does not reach
 %     'family'          joints can move with the hand still: solutions whose dimension is not 0 are members of
-%                       families. All isolated solutions that are regular are listed, too; there may be
-%                       more that are singular
-%     'undecided'       the pose is singular, or nearly so: what is listed has the pose, with all solutions
-%                       that are regular; there may be more, or some although none is listed
+%                       families. Isolated solutions are listed, too, as far as poses beside this one lead
+%                       to them; there may be more
+%     'undecided'       the pose is singular, or nearly so: what is listed has the pose; there may be more that
+%                       poses beside this one do not lead to, or some although none is listed
 %     'not a rotation'  the rotation is off by more than 1e-5. Nothing is listed
 %     'not finite'      a number that is read is infinite or none
 %   RESULT.off        how far the rotation was from the nearest one, which is meant, by its largest entry
