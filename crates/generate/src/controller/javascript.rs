@@ -37,9 +37,9 @@ impl Controller<'_> {
         let either = |is: bool, text: &str| if is { text.to_string() } else { String::new() };
         let entries: Vec<String> = self.places().iter().map(|(i, j)| format!("goal[{i}][{j}]")).collect();
         let flatten = match self.goal {
-            Goal::Pose if has_given => "[...goal.slice(0, 3).flat(), ...given]".into(),
+            Goal::Pose if has_given => "[...goal.slice(0, 3).flat(), ...Array.from(given)]".into(),
             Goal::Pose => "goal.slice(0, 3).flat()".into(),
-            _ if has_given => format!("[{}, ...given]", entries.join(", ")),
+            _ if has_given => format!("[{}, ...Array.from(given)]", entries.join(", ")),
             _ => format!("[{}]", entries.join(", ")),
         };
         let twist = if self.is_full { include_str!("javascript/twist.js.txt") } else { "    return null;" };
