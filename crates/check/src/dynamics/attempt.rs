@@ -328,14 +328,15 @@ impl Ways<'_> {
         let (strict, any) = (strict.map(|v| self.effective(v)), any.map(|v| self.effective(v)));
         match (strict, any) {
             (Some(strict), Some(any)) if strict.score() < any.score() => {
-                let mut any = any;
                 // Against the words nothing is right of which they tell.
                 let mut told = any.best[0].clone();
                 told.right.iter_mut().zip(&self.tells).for_each(|(right, tells)| *right &= !tells);
-                any.is_many |= strict.is_many;
-                any.best.extend(strict.best);
-                any.best.push(told);
-                Some(any)
+                // What the words tell comes first: a slip is one beside that.
+                let mut both = strict;
+                both.is_many |= any.is_many;
+                both.best.extend(any.best);
+                both.best.push(told);
+                Some(both)
             }
             (Some(strict), _) => Some(strict),
             (None, any) => any,
@@ -436,7 +437,16 @@ fn gravities(
         }
         return (vec![given], 1);
     }
-    let Some(g) = g else { return (vec![[o; 3]], 1) };
+    let g = match (g, told.gravity) {
+        (Some(g), _) => g,
+        // It is told, and no formula has it: then it is forgotten, or left out on purpose.
+        (None, Some((axis, is_down))) => {
+            let mut v = [o; 3];
+            v[axis] = if is_down { -Expr::symbol("g") } else { Expr::symbol("g") };
+            return (vec![v, [o; 3]], 1);
+        }
+        (None, None) => return (vec![[o; 3]], 1),
+    };
     let mut axes: [(usize, bool); 6] = [(1, true), (2, true), (0, true), (0, false), (1, false), (2, false)];
     axes.sort_by_key(|a| Some(*a) != told.gravity);
     let mut found: Vec<[Expr; 3]> = axes
@@ -447,6 +457,12 @@ fn gravities(
             v
         })
         .collect();
+    if told.is_level {
+        // Nothing moves along it, or only what slides up and down.
+        found.sort_by_key(|v| v[2].is_zero());
+        found.insert(0, [o; 3]);
+        return (found, 3);
+    }
     // There is some where a formula has it.
     if !tests.iter().any(|t| g.symbols().iter().all(|s| t.value.symbols().contains(s))) {
         found.push([o; 3]);

@@ -15,12 +15,15 @@ pub(super) enum Point {
 pub(super) struct Told {
     /// The axis along which gravity acts, and whether against it.
     pub gravity: Option<(usize, bool)>,
+    /// Whether the arm is said to move in a horizontal plane, and nothing of the direction of gravity.
+    pub is_level: bool,
     pub inertia: Option<Point>,
 }
 
 pub(super) fn told(text: &str) -> Told {
     let lower = text.to_lowercase();
-    Told { gravity: gravity(&lower), inertia: inertia(&lower) }
+    let gravity = gravity(&lower);
+    Told { gravity, is_level: gravity.is_none() && is_level(&lower), inertia: inertia(&lower) }
 }
 
 /// No sentence is longer that says something.
@@ -65,21 +68,39 @@ fn gravity(lower: &str) -> Option<(usize, bool)> {
             sentence.chars().filter(|c| !matches!(c, '$' | '{' | '}' | '\\' | '_')).collect();
         let sentence = ["hat", "vec", "mathbf"].iter().fold(sentence, |s, look| s.replace(look, ""));
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-            for minus in ["-", "−", "–"] {
-                for (k, _) in sentence.match_indices(&format!("{minus}{letter}")) {
-                    let behind = sentence[k + minus.len() + 1..].chars().next();
-                    if behind.is_some_and(char::is_alphabetic) {
+            for (sign, is_down) in [("-", true), ("−", true), ("–", true), ("+", false)] {
+                for (k, _) in sentence.match_indices(&format!("{sign}{letter}")) {
+                    let behind = sentence[k + sign.len() + 1..].chars().next();
+                    // What stands between two names is a sum.
+                    let before = sentence[..k].chars().next_back();
+                    let is_sum = !is_down && before.is_some_and(char::is_alphanumeric);
+                    if behind.is_some_and(char::is_alphanumeric) || is_sum {
                         continue;
                     }
                     match found {
-                        Some(other) if other != (axis, true) => return None,
-                        _ => found = Some((axis, true)),
+                        Some(other) if other != (axis, is_down) => return None,
+                        _ => found = Some((axis, is_down)),
                     }
                 }
             }
         }
     }
     found
+}
+
+/// Whether the words say that the arm moves in a horizontal plane.
+fn is_level(lower: &str) -> bool {
+    const WORDS: [&str; 8] = [
+        "horizontal plane",
+        "horizontale ebene",
+        "horizontalen ebene",
+        "waagerechten ebene",
+        "plan horizontal",
+        "plano horizontal",
+        "piano orizzontale",
+        "horizontally in a plane",
+    ];
+    WORDS.iter().any(|word| lower.contains(word)) && !lower.contains("vertical plane")
 }
 
 /// The point about which a sentence says that inertias are.

@@ -54,6 +54,17 @@ fn torques_have_gravity_where_the_document_has_it() {
 }
 
 #[test]
+fn what_contradicts_the_words_about_gravity_is_open() {
+    let torques = [torque_1(&[INERTIAL_1, CORIOLIS_1, GRAVITY_1]), TORQUE_2.to_string()];
+    says(&[POINTS, &torques[0], &torques[1]], &[RIGHT, RIGHT]);
+    // Upside down, in a plane that lies flat, and forgotten.
+    says(&[&POINTS.replace('−', "+"), &torques[0], &torques[1]], &[OPEN, OPEN]);
+    says(&["The arm moves in a horizontal plane.", &torques[0], &torques[1]], &[OPEN, OPEN]);
+    let forgotten = [torque_1(&[INERTIAL_1, CORIOLIS_1]), TORQUE_2.replace(" + m_2 g l_2 c_{12}", "")];
+    says(&[POINTS, &forgotten[0], &forgotten[1]], &[OPEN, OPEN]);
+}
+
+#[test]
 fn a_letter_with_three_indices_has_one_meaning() {
     let right = [
         r"$$c_{121} = c_{211} = -m_2 l_1 l_2 s_2$$",

@@ -242,7 +242,11 @@ impl Arm {
         }
         // Nothing that the library knows is missing.
         let missing = known.solutions.iter().find(|s| {
-            let is_regular = s.multiplicity == 1 && s.guard > 1e-4;
+            let is_regular = s.multiplicity == 1 && s.guard > 1e-3;
+            // What was found by trying values, between solutions that nearly coincide, need be none.
+            if s.guard == 0.0 && !known.is_complete() {
+                return false;
+            }
             let is_there = own().any(|t| self.is_same(pose, &s.q, t, off));
             !is_there && (is_regular || matches!(coded.status, SOLVED | NO_SOLUTION))
         });
