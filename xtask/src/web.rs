@@ -113,7 +113,7 @@ const TEXTS: &[&str] = &[
 const SHORT: usize = 200;
 /// The most bytes that are transferred, compressed by brotli: of each part of the engine, and of the page with all that it
 /// fetches before somebody checks a document, asks for one, or opens an archive or a tree.
-const MAX_ENGINE: u64 = 750_000;
+const MAX_ENGINE: u64 = 800_000;
 const MAX_SITE: u64 = 1_550_000;
 /// What a tool says when it fails may be long; its beginning says what is wrong.
 const MAX_LINES: usize = 40;
@@ -357,7 +357,7 @@ mod tests {
         let says = |files: &[Size]| limits(files).err().map(|e| e.to_string()).unwrap_or_default();
         assert_eq!(
             says(&files(MAX_ENGINE + 1, 0)),
-            "denavit.wasm is 750001 bytes compressed by brotli; at most 750000"
+            "denavit.wasm is 800001 bytes compressed by brotli; at most 800000"
         );
         assert_eq!(
             says(&files(1, MAX_SITE)),
