@@ -151,7 +151,11 @@ impl Closed {
         let values = self.facts.assumed.iter().map(|(s, e)| format!("{} = {}", s.name(), text(*e)));
         let values: Vec<String> = values.collect();
         (!values.is_empty()).then(|| {
-            format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", "))
+            format!(
+                "{} holds for {} only; what the parameters say of them is not read.",
+                self.name,
+                values.join(", ")
+            )
         })
     }
 

@@ -56,7 +56,7 @@ impl Periods {
     }
 
     /// Leaves out copies for which one of these joints would have to move.
-    pub(crate) fn keep(&mut self, joints: &[usize]) {
+    pub fn keep(&mut self, joints: &[usize]) {
         self.copies.retain(|c| joints.iter().all(|&j| c[j] == 0.0));
     }
 

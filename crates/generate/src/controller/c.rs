@@ -15,7 +15,7 @@ pub(super) fn attachment(own: &Controller) -> Attachment {
         Goal::PositionAndAxis => include_str!("c/goal_axis.c"),
     };
     let definitions = include_str!("c/answer.c").replace("@goal@", goal)
-        + include_str!("c/solve_closed.c")
+        + include_str!("c/solve.c")
         + &include_str!("c/singular.c").replace("@neighbour@", include_str!("c/neighbour.c"))
         + &copies(own)
         + include_str!("c/nearest.c");
@@ -34,8 +34,7 @@ pub(super) fn attachment(own: &Controller) -> Attachment {
 
 /// The table of further motions after which all links are back.
 fn copies(own: &Controller) -> String {
-    let mut rows = vec![vec![0.0; own.joints()]];
-    rows.extend(own.turning.copies.iter().cloned());
+    let rows = own.copies();
     format!(
         "\nenum {{\n    /* Motions of joints with gears after which all links are back, besides those in turns of one joint; the first is \
          none. */\n    ANSWER_COPIES = {}\n}};\n\nstatic const double answer_copies[ANSWER_COPIES][ANSWER_JOINTS] = {{\n{}\n}};\n",
@@ -93,10 +92,8 @@ impl Controller<'_> {
         let search =
             if has_given { include_str!("c/search_given.c") } else { include_str!("c/search_plain.c") };
         let spread = if has_given { include_str!("c/spread.c") } else { "" };
-        // What a pose is off is what an arm that reaches few of them may miss it by: there it is passed on as it came.
-        let solve_goal = if self.is_full || self.goal != Goal::Pose { "goal" } else { "pose" };
-        let configurations: Vec<&Vec<f64>> = self.known.iter().map(|k| &k.0).collect();
-        let counts: Vec<usize> = self.known.iter().map(|k| k.1).collect();
+        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
+        let (configurations, counts) = self.tested();
         let parameters_test = format!(
             "\n    const @name@_parameters values = {{\n{}    }};\n    const @name@_parameters *parameters = &values;",
             wrapped(
@@ -122,7 +119,7 @@ impl Controller<'_> {
             .replace("@given_test@", &either(has_given, &given_test))
             .replace("@parameters_test@", &either(p, &parameters_test))
             .replace("@configurations@", &table(&configurations))
-            .replace("@solutions@", &crate::tables::integers(&counts))
+            .replace("@solutions@", &format!("{{{counts}}}"))
             .replace("@count@", &self.known.len().to_string())
             .replace("@twist@", twist)
             .replace(

@@ -48,13 +48,10 @@ impl Controller<'_> {
         } else {
             include_str!("javascript/search_plain.js.txt")
         };
-        let mut copies = vec![vec![0.0; n]];
-        copies.extend(self.turning.copies.iter().cloned());
-        // What a pose is off is what an arm that reaches few of them may miss it by: there it is passed on as it came.
-        let solve_goal = if self.is_full || self.goal != Goal::Pose {
-            "goal"
-        } else {
+        let solve_goal = if self.passes_rounded() {
             "[0, 4, 8].map((start) => [0, 1, 2, 3].map((k) => pose[start + k]))"
+        } else {
+            "goal"
         };
         let given_length = format!("\n  ikRequire(given, \"given\", [{g}]);");
         let given_check = "\n  if (!Array.from(given).every(Number.isFinite)) {\n    return { status: \"not finite\", off, \
@@ -68,10 +65,8 @@ impl Controller<'_> {
             if self.goal == Goal::Position { "" } else { include_str!("javascript/test_wrong.js.txt") };
         let or_twist =
             if self.is_full { ", or the goal\n * turned and shifted a little if there is none" } else { "" };
-        let configurations: Vec<Vec<f64>> = self.known.iter().map(|k| k.0.clone()).collect();
-        let counts: Vec<String> = self.known.iter().map(|k| k.1.to_string()).collect();
+        let (configurations, counts) = self.tested();
         let test_given: Vec<String> = self.given.iter().map(|j| format!("q[{j}]")).collect();
-        let values: Vec<String> = self.parameters.iter().map(|x| format!("{x:?}")).collect();
         let (default, public, limits) = if self.has_defaults {
             (", parameters = DEFAULTS", "[parameters]", "{IkLimits} [limits]")
         } else {
@@ -104,7 +99,7 @@ impl Controller<'_> {
             .replace("@parameters_passed@", &either(p, ", parameters"))
             .replace(
                 "@parameters_test@",
-                &either(p, &format!("\nconst parameters = @Parameters({})@;", values.join(", "))),
+                &either(p, &format!("\nconst parameters = {};", self.test_parameters())),
             )
             .replace("@read@", self.read())
             .replace("@pose_read@", self.read())
@@ -114,8 +109,8 @@ impl Controller<'_> {
             .replace("@solve_goal@", solve_goal)
             .replace("@samples@", &SAMPLES.to_string())
             .replace("@configurations@", &rows(&configurations))
-            .replace("@solutions@", &format!("[{}]", counts.join(", ")))
-            .replace("@copies@", &rows(&copies))
+            .replace("@solutions@", &format!("[{counts}]"))
+            .replace("@copies@", &rows(&self.copies()))
             .replace("@given@", &format!("[{}]", given.join(", ")))
             .replace("@size@", &format!("{:?}", self.size))
             .replace("@units@", &numbers(&|j| self.unit(j)))

@@ -57,23 +57,18 @@ impl Controller<'_> {
             Solver::Closed(closed) => closed.facts().max_solutions,
             Solver::General(_) => MAX,
         };
-        let mut copies = vec![vec![0.0; n]];
-        copies.extend(self.turning.copies.iter().cloned());
         let given: Vec<String> = self.given.iter().map(|j| (j + 1).to_string()).collect();
         let given = if has_given { format!("[{}]", given.join(", ")) } else { "zeros(1, 0)".into() };
         let names: Vec<String> = self.given.iter().map(|j| format!("q({})", j + 1)).collect();
         let given_about =
             format!("%\n%   GIVEN has the value{} of {}.\n", if g == 1 { "" } else { "s" }, names.join(", "));
         let given_check = format!("\ngiven = @name@_numbers(given, 'given', {{[1, {g}]}});");
-        // What a pose is off is what an arm that reaches few of them may miss it by: there it is passed on as it came.
-        let solve_goal = if self.is_full || self.goal != Goal::Pose { "goal" } else { "pose" };
+        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
         let test_given = format!(", q({given})");
         let wrong = if self.goal == Goal::Position { "" } else { include_str!("matlab/test_wrong.m") };
         let or_twist =
             if self.is_full { ", or the\n% goal turned and shifted a little if there is none" } else { "" };
-        let configurations: Vec<Vec<f64>> = self.known.iter().map(|k| k.0.clone()).collect();
-        let counts: Vec<String> = self.known.iter().map(|k| k.1.to_string()).collect();
-        let values: Vec<String> = self.parameters.iter().map(|x| format!("{x:?}")).collect();
+        let (configurations, counts) = self.tested();
         let (is_given, is_parametric) = (usize::from(has_given), usize::from(p));
         let is_required = usize::from(p && !self.has_defaults);
         // Limits stand ahead of parameters.
@@ -117,18 +112,15 @@ impl Controller<'_> {
             .replace("@PARAMETERS@", &either(p, ", PARAMETERS"))
             .replace("@parameters_given@", &either(p, ", parameters"))
             .replace("@parameters_passed@", &either(p, ", parameters"))
-            .replace(
-                "@parameters_test@",
-                &either(p, &format!("\nparameters = @Parameters({})@;", values.join(", "))),
-            )
+            .replace("@parameters_test@", &either(p, &format!("\nparameters = {};", self.test_parameters())))
             .replace("@clear@", if p { "clear parameters" } else { "" })
             .replace("@read@", self.read())
             .replace("@range@", self.range())
             .replace("@nearest@", wrapped("%   ", &nearest, "").trim_end())
             .replace("@samples@", &SAMPLES.to_string())
             .replace("@configurations@", &rows(&configurations))
-            .replace("@solutions@", &format!("[{}]", counts.join(", ")))
-            .replace("@copies@", &rows(&copies))
+            .replace("@solutions@", &format!("[{counts}]"))
+            .replace("@copies@", &rows(&self.copies()))
             .replace("@given@", &given)
             .replace("@size@", &format!("{:?}", self.size))
             .replace("@units@", &numbers(&|j| self.unit(j)))

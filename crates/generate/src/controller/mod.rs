@@ -2,8 +2,8 @@
 //! their turns.
 //!
 //! It stands around `solve`, which lists what a closed form or elimination finds, and is the same for every arm. Where that says
-//! that a pose is singular, solutions that it does not see are followed from poses beside it, where each regular one is
-//! found: an isolated solution with a Jacobian of full rank has neighbours at all poses nearby.
+//! that a pose is singular, solutions that it does not see are followed from poses beside it: an isolated solution with a
+//! Jacobian of full rank has neighbours at all poses near enough. How near that is, is not known; so nothing is said to be complete there.
 
 mod c;
 mod javascript;
@@ -66,7 +66,7 @@ impl<'a> Controller<'a> {
         };
         let parameters: Vec<f64> = samples::parameters(d).into_iter().chain(more.iter().copied()).collect();
         let mut turning = space.turning.clone();
-        turning.copies.retain(|c| given.iter().all(|&j| c[j] == 0.0));
+        turning.keep(&given);
         Controller {
             solver,
             goal,
@@ -99,7 +99,7 @@ impl<'a> Controller<'a> {
             Language::Python => python::attachment(self),
             Language::JavaScript => javascript::attachment(self),
             Language::Matlab => matlab::attachment(self),
-            _ => c::attachment(self),
+            Language::C | Language::Cuda | Language::IkFast => c::attachment(self),
         }
     }
 
@@ -107,7 +107,7 @@ impl<'a> Controller<'a> {
     pub fn header(&self) -> Vec<String> {
         vec![
             "ik, ik_nearest, ik_all_within_limits: around solve, which lists the solutions, with a status for each call. At \
-             singular poses, and beside them, solutions are followed from poses nearby, where all are regular."
+             singular poses, and beside them, solutions are followed from some poses nearby."
                 .into(),
         ]
     }
@@ -165,6 +165,28 @@ impl<'a> Controller<'a> {
 
     fn limit(&self, joint: usize) -> [f64; 2] {
         self.limits[joint].unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    /// Motions after which all links are back, besides those in turns of one joint; the first is none.
+    fn copies(&self) -> Vec<Vec<f64>> {
+        std::iter::once(vec![0.0; self.joints()]).chain(self.turning.copies.iter().cloned()).collect()
+    }
+
+    /// Whether `solve` gets the pose as it came: what it is off is what an arm that reaches few poses may miss it by.
+    fn passes_rounded(&self) -> bool {
+        !self.is_full && self.goal == Goal::Pose
+    }
+
+    /// The configurations of the test, and how many have the pose of each.
+    fn tested(&self) -> (Vec<Vec<f64>>, String) {
+        let counts: Vec<String> = self.known.iter().map(|k| k.1.to_string()).collect();
+        (self.known.iter().map(|k| k.0.clone()).collect(), counts.join(", "))
+    }
+
+    /// Values of the parameters in the test, as [`Attachment`] takes them.
+    fn test_parameters(&self) -> String {
+        let values: Vec<String> = self.parameters.iter().map(|x| format!("{x:?}")).collect();
+        format!("@Parameters({})@", values.join(", "))
     }
 
     fn joints(&self) -> usize {

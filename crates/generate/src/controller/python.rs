@@ -75,13 +75,10 @@ impl Controller<'_> {
         } else {
             include_str!("python/search_plain.py.txt")
         };
-        let mut copies = vec![vec![0.0; n]];
-        copies.extend(self.turning.copies.iter().cloned());
-        let solve_goal = if self.is_full || self.goal != Goal::Pose { "goal" } else { "pose" };
+        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
         let given_check = "\n    if not np.isfinite(given).all():\n        status = IkStatus.NOT_FINITE";
         let wrong = if self.goal == Goal::Position { "" } else { include_str!("python/test_wrong.py.txt") };
-        let configurations: Vec<Vec<f64>> = self.known.iter().map(|k| k.0.clone()).collect();
-        let counts: Vec<String> = self.known.iter().map(|k| k.1.to_string()).collect();
+        let (configurations, counts) = self.tested();
         let or_twist =
             if self.is_full { ", or\n    the goal turned and shifted a little if there is none" } else { "" };
         let signature = |arguments: &[&str]| {
@@ -97,7 +94,6 @@ impl Controller<'_> {
         let limits = "limits: tuple[ArrayLike, ArrayLike] = LIMITS";
         let given: Vec<String> = self.given.iter().map(usize::to_string).collect();
         let given = format!("[{}]", given.join(", "));
-        let values: Vec<String> = self.parameters.iter().map(|x| format!("{x:?}")).collect();
         template
             .replace("@search@", search.trim_end())
             .replace("@spread@", if has_given { include_str!("python/spread.py.txt") } else { "" })
@@ -131,13 +127,10 @@ impl Controller<'_> {
             .replace("@parameters_passed@", &either(p, ", parameters"))
             .replace("@parameters_argument@", &either(p, ", self.parameters"))
             .replace("@parameters_keyword@", &either(p, ", parameters=self.parameters"))
-            .replace(
-                "@parameters_test@",
-                &if p { format!("@Parameters({})@", values.join(", ")) } else { "None".into() },
-            )
+            .replace("@parameters_test@", &if p { self.test_parameters() } else { "None".into() })
             .replace("@configurations@", &rows(&configurations, 4))
-            .replace("@solutions@", &format!("[{}]", counts.join(", ")))
-            .replace("@copies@", &rows(&copies, 0))
+            .replace("@solutions@", &format!("[{counts}]"))
+            .replace("@copies@", &rows(&self.copies(), 0))
             .replace("@given@", &given)
             .replace("@size@", &format!("{:?}", self.size))
             .replace("@units@", &numbers(&|j| self.unit(j)))

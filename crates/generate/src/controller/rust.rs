@@ -67,8 +67,7 @@ impl Controller<'_> {
         } else {
             include_str!("rust/search_plain.rs.txt")
         };
-        let mut copies = vec![vec![0.0; n]];
-        copies.extend(self.turning.copies.iter().cloned());
+        let copies = self.copies();
         let rows = |all: &[Vec<f64>]| {
             let rows = all.iter().map(|row| array(row.iter().map(|x| number(*x)).collect()));
             array(rows.collect())
@@ -81,7 +80,7 @@ impl Controller<'_> {
         } else {
             self.read().to_string()
         };
-        let solve_goal = if self.is_full || self.goal != Goal::Pose { "&goal" } else { "pose" };
+        let solve_goal = if self.passes_rounded() { "pose" } else { "&goal" };
         let given_check = "\n    if !given.iter().all(|x| x.is_finite()) {\n        return IkResult::new(IkStatus::NotFinite, off);\n    }";
         let max = if is_closed { "SOLVE_MAX".to_string() } else { MAX.to_string() };
         let branch = if is_closed {
@@ -89,8 +88,7 @@ impl Controller<'_> {
         } else {
             "By elimination there are no branches."
         };
-        let configurations: Vec<Vec<f64>> = self.known.iter().map(|k| k.0.clone()).collect();
-        let counts: Vec<String> = self.known.iter().map(|k| k.1.to_string()).collect();
+        let (configurations, counts) = self.tested();
         let test_given: Vec<String> = self.given.iter().map(|j| format!("q[{j}]")).collect();
         let wrong = if self.goal == Goal::Position { "" } else { include_str!("rust/test_wrong.rs.txt") };
         let nearest =
@@ -127,7 +125,7 @@ impl Controller<'_> {
             .replace("@copies_count@", &copies.len().to_string())
             .replace("@copies@", &rows(&copies))
             .replace("@configurations@", &rows(&configurations))
-            .replace("@solutions@", &array(counts))
+            .replace("@solutions@", &format!("[{counts}]"))
             .replace("@count@", &self.known.len().to_string())
             .replace("@flatten@", &flatten)
             .replace("@solve_goal@", solve_goal)
@@ -147,7 +145,10 @@ impl Controller<'_> {
             .replace("@parameters_given@", &either(p, ", parameters: &crate::Parameters"))
             .replace("@parameters_passed@", &either(p, ", parameters"))
             .replace("@parameters_unread@", &either(p, "\n    let _ = parameters;"))
-            .replace("@parameters_test@", &either(p, &self.test_parameters()))
+            .replace(
+                "@parameters_test@",
+                &either(p, &format!("\n    let parameters = &@name@::{};", self.test_parameters())),
+            )
             .replace("@size@", &number(self.size))
             .replace("@units@", &numbers(&|j| self.unit(j)))
             .replace("@periods@", &numbers(&|j| self.period(j)))
@@ -158,12 +159,6 @@ impl Controller<'_> {
             .replace("@variables@", &self.variables.to_string())
             .replace("@columns@", &(6 * n).to_string())
             .replace("@n@", &n.to_string())
-    }
-
-    /// The values of the parameters, which are fields of a structure in their order.
-    fn test_parameters(&self) -> String {
-        let values: Vec<String> = self.parameters.iter().map(|x| number(*x)).collect();
-        format!("\n    let parameters = &@name@::@Parameters({})@;", values.join(", "))
     }
 }
 

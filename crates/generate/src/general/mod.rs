@@ -117,7 +117,7 @@ impl General {
     /// Lines for the head of each file.
     pub fn header(&self) -> Vec<String> {
         let mut lines = vec![format!(
-            "ik: no closed form; by elimination with numbers, at most {} solutions, each polished by Newton's method on \
+            "solve: no closed form; by elimination with numbers, at most {} solutions, each polished by Newton's method on \
              the forward model.",
             MAX
         )];
@@ -139,7 +139,7 @@ impl General {
 fn condition(assumed: &[(Symbol, Expr)]) -> Option<String> {
     let values: Vec<String> = assumed.iter().map(|(s, e)| format!("{} = {}", s.name(), text(*e))).collect();
     (!values.is_empty()).then(|| {
-        format!("ik holds for {} only; what the parameters say of them is not read.", values.join(", "))
+        format!("solve holds for {} only; what the parameters say of them is not read.", values.join(", "))
     })
 }
 

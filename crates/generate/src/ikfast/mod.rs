@@ -98,7 +98,7 @@ impl<'a> Interface<'a> {
         lines.extend([
             "ComputeIk adds the configurations of a goal, each once, angles from -pi to pi; limits are not looked at. These are all, \
              and false says that the arm does not reach, but for goals at singular configurations or beside them, where there \
-             may be more: the interface has no place for the certificate that ik has in C and Rust."
+             may be more: the interface has no place for the certificate that solve has in C and Rust."
                 .into(),
             "Where two joints turn against each other with the hand still, or one turns for nothing, the solution \
              is the whole family: GetFree names the joint that is free, and others follow it (fmul, foffset). Of a family that \

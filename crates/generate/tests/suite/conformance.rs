@@ -15,8 +15,7 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Arms of different structure, with the joints that are given where they have too many, and the largest part of singular poses
-/// that may stay undecided.
+/// Arms of different structure.
 const ARMS: [&str; 12] = [
     "planar-3r",
     "scara",
@@ -269,12 +268,7 @@ impl Arm {
         if known.is_complete() {
             let extra = coded.isolated.iter().find(|s| {
                 let is_known = known.solutions.iter().any(|t| self.is_same(pose, &t.q, s, off));
-                let is_member = || {
-                    known
-                        .families
-                        .iter()
-                        .any(|f| self.solver.family_of(pose, known, s).is_some() || !f.is_affine)
-                };
+                let is_member = || self.solver.family_of(pose, known, s).is_some();
                 !is_known && !is_member()
             });
             if let Some(s) = extra {

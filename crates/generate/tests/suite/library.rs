@@ -66,11 +66,11 @@ fn what_is_part_of_the_closed_form_is_said() {
     let found = generated_for(&symbols(), Goal::Pose, None);
     assert_eq!(found.inverse.expect("a closed form").assumed.len(), 1);
     assert!(
-        found.files.iter().all(|f| f.text.contains("ik holds for alpha1 = ") || f.path.ends_with(".toml"))
+        found.files.iter().all(|f| f.text.contains("solve holds for alpha1 = ") || f.path.ends_with(".toml"))
     );
     let found = generated("ur5", Goal::Pose, None);
     assert!(found.inverse.expect("a closed form").assumed.is_empty());
-    assert!(!found.files.iter().any(|f| f.text.contains("ik holds for")));
+    assert!(!found.files.iter().any(|f| f.text.contains("solve holds for")));
 }
 
 #[test]

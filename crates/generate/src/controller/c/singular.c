@@ -213,9 +213,9 @@ static int answer_is_member(
 /* Members of families are found so near to them that singular values are below this beside the largest. */
 static const double answer_flat = 2e-6;
 
-/* Adds a configuration that has the pose, unless it is there, or a family of which it is a member; 0 if there is no
+/* Adds a configuration that has the pose, unless it is there, or a family of which it is a member, or there is no
    room. */
-static int answer_add(
+static void answer_add(
     double goal[4][4]@parameters_given@, @name@_ik_result *result, const @name@_ik_solution *found)
 {
     @name@_ik_solution own = *found;
@@ -224,7 +224,7 @@ static int answer_add(
     answer_wrap(own.q);
     for (int k = 0; k < result->count; k++) {
         if (answer_apart(result->solutions[k].q, own.q) <= 1e-6) {
-            return 1;
+            return;
         }
     }
     kernel = answer_still(goal, own.q@parameters_passed@);
@@ -233,11 +233,11 @@ static int answer_add(
     for (int k = 0; k < result->count; k++) {
         const @name@_ik_solution *known = &result->solutions[k];
         if (answer_apart(known->q, own.q) <= close) {
-            return 1;
+            return;
         }
         if (known->dimension > 0 && kernel.least < answer_flat
             && answer_is_member(goal, known, own.q@parameters_passed@)) {
-            return 1;
+            return;
         }
     }
     own.dimension = answer_family(goal, own.q@parameters_passed@, &kernel, own.motion);
@@ -253,11 +253,9 @@ static int answer_add(
         }
         result->count = left;
     }
-    if (result->count == @NAME@_IK_MAX) {
-        return 0;
+    if (result->count < @NAME@_IK_MAX) {
+        result->solutions[result->count++] = own;
     }
-    result->solutions[result->count++] = own;
-    return 1;
 }
 @neighbour@
 /* Where the arm hardly moves its hand, and no motion with the hand still is seen, several may cross: what lies farther along
@@ -279,13 +277,13 @@ static void answer_probe(
         found.branch = -1;
         found.multiplicity = 1;
         if (found.residual <= 1e-10) {
-            (void)answer_add(goal@parameters_passed@, result, &found);
+            answer_add(goal@parameters_passed@, result, &found);
         }
     }
 }
 
 /* Singular poses: what @name@_solve lists is made precise, families are found, and solutions that it does not see
-   there are followed from poses beside it, where all are regular. */
+   there are followed from poses beside it. */
 static @name@_ik_status answer_singular(
     double goal[4][4],@given_local@@parameters_local@
     @name@_ik_result *result)
@@ -306,7 +304,7 @@ static @name@_ik_status answer_singular(
                 memcpy(found.q, listed.solutions[k].q, sizeof found.q);
             }
         }
-        (void)answer_add(goal@parameters_passed@, result, &found);
+        answer_add(goal@parameters_passed@, result, &found);
     }
     for (int k = 0; k < ANSWER_NEIGHBOURS; k++) {
         double beside[4][4];
@@ -321,7 +319,7 @@ static @name@_ik_status answer_singular(
             found.branch = -1;
             found.multiplicity = 1;
             if (found.residual <= 1e-10) {
-                (void)answer_add(goal@parameters_passed@, result, &found);
+                answer_add(goal@parameters_passed@, result, &found);
             }
         }
     }

@@ -367,7 +367,7 @@ end
 
 function [known, status] = singular(a, goal, given, first)
 % Singular poses: what @name@_solve lists is made precise, families are found, and solutions that it does not
-% see there are followed from poses beside it, where all are regular.
+% see there are followed from poses beside it.
 precise = first;
 for k = 1:numel(precise)
     if precise(k).residual > 1e-12
