@@ -264,11 +264,12 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
     let options = &ikfast::completed(options)?;
     let is_interface = options.language == Language::IkFast;
     let fixed;
+    let (rigid, moved) = description.made_rigid();
     let d = if options.fixed {
-        fixed = with_values(description).map_err(Unable::Fixed)?;
+        fixed = with_values(&rigid).map_err(Unable::Fixed)?;
         &fixed
     } else {
-        description
+        &rigid
     };
     let dynamic = Dynamic::new(d, &options.functions, options.masses, options.loads)?;
     let asked = options.functions.contains(&Wanted::Inverse);
@@ -305,8 +306,13 @@ pub fn generate(description: &Description, options: &PackageOptions) -> Result<G
         .map(|p| words::parameter(d, p.symbol, p.value))
         .chain(dynamic.iter().flat_map(Dynamic::parameters))
         .collect();
-    let mut about: Vec<String> =
-        closed.iter().flat_map(Closed::header).chain(general.iter().flat_map(General::header)).collect();
+    let rounded = moved.iter().map(|(what, off)| {
+        format!("The rotation of the {what} is rounded: the nearest one is meant ({off:.0e} away).")
+    });
+    let mut about: Vec<String> = rounded
+        .chain(closed.iter().flat_map(Closed::header))
+        .chain(general.iter().flat_map(General::header))
+        .collect();
     let mut attachments: Vec<Attachment> = general.iter().map(General::attachment).collect();
     let mut routines: Vec<Routine> = programs.iter().map(|f| f.routine(d, &samples)).collect();
     let mut solvers: Vec<SolverRoutine> = closed.iter().map(Closed::routine).collect();

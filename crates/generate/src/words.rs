@@ -45,7 +45,13 @@ pub(super) fn header(
 }
 
 pub(super) fn text(e: Expr) -> String {
-    print(e, &Vocabulary::new(), Style::Ascii)
+    /// Fractions with more digits are written as decimals, with those of doubles.
+    const LONG: usize = 24;
+    let exact = print(e, &Vocabulary::new(), Style::Ascii);
+    match e.as_number() {
+        Some(number) if exact.len() > LONG => format!("{:?}", number.to_f64()),
+        _ => exact,
+    }
 }
 
 /// The table with aligned columns, its letters those of the convention.

@@ -22,6 +22,7 @@ mod order;
 mod parameters;
 mod periods;
 mod reader;
+mod rigid;
 mod robot_file;
 mod rows;
 mod same;

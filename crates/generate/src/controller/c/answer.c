@@ -166,6 +166,7 @@ static double answer_correct(double goal[4][4], double *q@parameters_given@, int
     double best[ANSWER_JOINTS];
     double least = HUGE_VAL;
     double before = HUGE_VAL;
+    memcpy(best, q, sizeof best);
     for (int step = 0; step <= steps; step++) {
         const double length = answer_error(goal, q@parameters_passed@, is_held, error, jacobian);
         double largest = 0.0;
@@ -191,9 +192,7 @@ static double answer_correct(double goal[4][4], double *q@parameters_given@, int
             q[j] += answer_unit[j] * motion[j] * (largest > 0.5 ? 0.5 / largest : 1.0);
         }
     }
-    if (least < HUGE_VAL) {
-        memcpy(q, best, sizeof best);
-    }
+    memcpy(q, best, sizeof best);
     return least;
 }
 

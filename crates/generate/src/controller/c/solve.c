@@ -7,7 +7,7 @@ static int answer_solve(
     @name@_solve_certificate certificate;
     double values[@values@];@parameters_unread@
 @flatten@    result->count = @name@_solve(values@solve_parameters@, found, &certificate);
-    for (int s = 0; s < result->count; s++) {
+    for (int s = 0; s < @NAME@_SOLVE_MAX && s < result->count; s++) {
         @name@_ik_solution *own = &result->solutions[s];
         memcpy(own->q, found[s].q, sizeof own->q);
         memset(own->motion, 0, sizeof own->motion);

@@ -15,6 +15,9 @@ mod keyframes;
 mod turns;
 mod write;
 
+pub(super) use turns::matrix as rotation_of;
+pub(super) use write::quaternion;
+
 pub use write::{refused_masses, write_mjcf};
 
 use super::Decimals;

@@ -182,7 +182,7 @@ impl Placing<'_> {
 }
 
 /// The matrix of a quaternion of any length but 0.
-fn matrix([w, x, y, z]: [&Rational; 4]) -> Option<Rotation<Expr>> {
+pub(in crate::description) fn matrix([w, x, y, z]: [&Rational; 4]) -> Option<Rotation<Expr>> {
     let n = w * w + x * x + y * y + z * z;
     let over = n.recip()?;
     let two = Rational::from(2) * over;

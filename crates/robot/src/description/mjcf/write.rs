@@ -200,7 +200,7 @@ fn placed(x: &Transform<Expr>) -> String {
     match exact_rpy(&x.rotation) {
         Some(rpy) => format!("{pos} euler=\"{}\"", list(rpy)),
         None => {
-            let q = quaternion(&x.rotation)
+            let q = quaternion(&x.rotation.map(value))
                 .map(|c| number(Rational::from_f64(c).map_or(Expr::int(0), Expr::from)));
             format!("{pos} quat=\"{}\"", q.join(" "))
         }
@@ -208,8 +208,8 @@ fn placed(x: &Transform<Expr>) -> String {
 }
 
 /// The unit quaternion of a rotation, w first, in doubles (Shepperd 1978: from its largest component).
-fn quaternion(r: &Rotation<Expr>) -> [f64; 4] {
-    let m = r.map(value).rows();
+pub(in crate::description) fn quaternion(r: &Rotation<f64>) -> [f64; 4] {
+    let m = r.rows();
     let trace = m[0][0] + m[1][1] + m[2][2];
     let largest = [trace, m[0][0], m[1][1], m[2][2]];
     let k = (0..4).fold(0, |best, k| if largest[k] > largest[best] { k } else { best });
