@@ -109,6 +109,8 @@ const TEXTS: &[&str] = &[
     "crates/report/assets",
     "crates/generate/src",
 ];
+/// What the part exports that reads them.
+const READER: &str = "answer_written";
 /// Shorter texts are not worth a place of their own.
 const SHORT: usize = 200;
 /// The most bytes that are transferred, compressed by brotli: of each part of the engine, and of the page with all that it
@@ -244,7 +246,9 @@ fn divided(engine: &Path, site: &Path) -> Result<()> {
     for folder in TEXTS {
         constants(&path(folder), &mut texts)?;
     }
-    let plan = split::Plan { parts: &PARTS, dropped: FOREIGN, texts: &texts };
+    let is_reader = |part: &split::Part| part.exports.contains(&READER);
+    let reader = PARTS.iter().position(is_reader).context("a part reads the texts")?;
+    let plan = split::Plan { parts: &PARTS, dropped: FOREIGN, texts: &texts, reader };
     for (name, part) in ENGINE.into_iter().zip(split::split(&wasm, &plan)?) {
         fs::write(site.join(name), part)?;
     }
