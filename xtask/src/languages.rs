@@ -237,7 +237,7 @@ pub fn quietly(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Debian packages for the programs that are missing.
+/// Debian packages for the programs, and headers, that are missing.
 pub fn install() -> Result<()> {
     const PROGRAMS: &[(&str, &str)] = &[
         ("gcc", "gcc"),
@@ -247,8 +247,12 @@ pub fn install() -> Result<()> {
         ("octave", "octave"),
         ("node", "nodejs"),
         ("python3", "python3"),
+        ("/usr/include/eigen3", "libeigen3-dev"),
     ];
     let is_missing = |program: &str| {
+        if program.starts_with('/') {
+            return !Path::new(program).exists();
+        }
         let started =
             Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
         !started.is_ok_and(|s| s.success())

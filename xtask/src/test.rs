@@ -117,6 +117,7 @@ fn run_cargo(arguments: &[&str]) -> Result<()> {
 
 /// All tests, but what other steps run.
 fn tests() -> Result<()> {
+    crate::languages::install()?;
     match nextest() {
         Some(mut runner) => {
             runner.args(["run", "--workspace", "--locked", "-E", &format!("not test({REPORTS})")]);

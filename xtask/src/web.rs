@@ -115,7 +115,7 @@ const READER: &str = "answer_written";
 const SHORT: usize = 200;
 /// The most bytes that are transferred, compressed by brotli: of each part of the engine, and of the page with all that it
 /// fetches before somebody checks a document, asks for one, or opens an archive or a tree.
-const MAX_ENGINE: u64 = 800_000;
+const MAX_ENGINE: u64 = 750_000;
 const MAX_SITE: u64 = 1_550_000;
 /// What a tool says when it fails may be long; its beginning says what is wrong.
 const MAX_LINES: usize = 40;

@@ -523,13 +523,16 @@ pub enum LanguageName {
     Cuda,
     /// A C++ file with IKFast's interface (ComputeIk, ComputeFk), for MoveIt, OpenRAVE, Tesseract
     Ikfast,
+    /// A ROS 2 package with plug-ins for MoveIt 2 and ros2_control, of a chain of a URDF
+    Ros2,
 }
 
 impl From<LanguageName> for Language {
     fn from(name: LanguageName) -> Self {
         match name {
             LanguageName::Rust => Language::Rust,
-            LanguageName::C => Language::C,
+            // The package has the functions in C.
+            LanguageName::C | LanguageName::Ros2 => Language::C,
             LanguageName::Python => Language::Python,
             LanguageName::Matlab => Language::Matlab,
             LanguageName::Javascript => Language::JavaScript,

@@ -1,16 +1,17 @@
 //! `denavit generate`: source code that builds and tests itself.
 
-use crate::arguments::GenerateArguments;
+use crate::arguments::{GenerateArguments, LanguageName};
 use crate::commands::dynamics::tree;
 use crate::commands::fk::tree::bodies;
 use crate::failure::Failure;
-use crate::load;
+use crate::load::{self, Around};
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
 use denavit::description::Description;
 use denavit::dynamics::{Loads, NoProgram};
 use denavit::inverse;
+use denavit::robot::Robot;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Inverse, PackageOptions, Unable, Wanted};
+use denavit_generate::{Generated, Inverse, Links, PackageOptions, Unable, Wanted, generate_ros2};
 use denavit_wire::code::Written;
 use std::fs;
 use std::io::Write;
@@ -42,6 +43,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     if arguments.float && !matches!(language, Language::C | Language::Cuda) {
         return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
     }
+    if let (true, Some(option)) = (is_package(arguments), not_in_package(arguments)) {
+        return Err(Failure::Usage(format!("{option} is not for --language ros2")));
+    }
     let generated = match arguments.whole {
         true => of_tree(arguments, functions, language),
         false => of_chain(arguments, functions, language),
@@ -61,10 +65,15 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     }
     let mut out = anstream::stdout();
     if arguments.json {
-        let written = Written::of(&generated, language, &arguments.output);
+        let mut written = Written::of(&generated, language, &arguments.output);
+        if is_package(arguments) {
+            written.language = ROS2;
+        }
         writeln!(out, "{}", denavit_wire::text(&written))?;
     } else {
-        write!(out, "{}", report(&generated, language, &arguments.output))?;
+        let what = if is_package(arguments) { ROS2 } else { language.name() };
+        let test = generated.test_command(language);
+        write!(out, "{}", report(&generated, what, &test, &arguments.output))?;
     }
     Ok(())
 }
@@ -75,13 +84,56 @@ fn of_chain(
     functions: Vec<Wanted>,
     language: Language,
 ) -> Result<Generated, Failure> {
-    let description = load::robot(&arguments.robot)?;
+    let (description, around) = load::robot_and_around(&arguments.robot)?;
     let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
     let options = PackageOptions {
         inverse: inverse::InverseOptions { goal: arguments.goal.into(), given },
         ..options(arguments, functions, language, &description.name)
     };
+    if is_package(arguments) {
+        return package(&description, &around, &options, arguments);
+    }
     denavit_generate::generate(&description, &options).map_err(|why| refused(&why, arguments))
+}
+
+/// What is written for `--language ros2`.
+const ROS2: &str = "ROS 2 package";
+
+fn is_package(arguments: &GenerateArguments) -> bool {
+    matches!(arguments.language, LanguageName::Ros2)
+}
+
+/// An option that a package has no place for.
+fn not_in_package(arguments: &GenerateArguments) -> Option<&'static str> {
+    let given = [
+        (arguments.whole, "--whole"),
+        (arguments.float, "--float"),
+        (arguments.wrench, "--wrench"),
+        (arguments.payload, "--payload"),
+        (arguments.masses.is_some(), "--masses"),
+    ];
+    given.into_iter().find(|g| g.0).map(|g| g.1)
+}
+
+/// A package for ROS 2.
+fn package(
+    description: &Description,
+    around: &Around,
+    options: &PackageOptions,
+    arguments: &GenerateArguments,
+) -> Result<Generated, Failure> {
+    let file = &arguments.robot.robot;
+    let Around::Bodies(both) = around else {
+        return Err(Failure::Input(format!(
+            "error: {file}: a package for ROS 2 needs the names of links and joints, which a table does not have\n  = hint: \
+             give the URDF of the robot; `denavit convert {file} --to urdf` writes one"
+        )));
+    };
+    let robot = Robot::numeric(description).map_err(|missing| {
+        Failure::Input(format!("error: {file}: {missing}\n  = hint: give values with --set"))
+    })?;
+    let links = Links::new(&both.0, &both.1, &robot);
+    generate_ros2(description, &links, options).map_err(|why| refused(&why, arguments))
 }
 
 /// Functions of a whole tree.
@@ -128,8 +180,9 @@ fn refused(why: &Unable, arguments: &GenerateArguments) -> Failure {
             )
         }
         Unable::NotInInterface(_) => {
+            let name = if is_package(arguments) { "ros2" } else { "ikfast" };
             format!(
-                "error: --language ikfast: {why}\n  = hint: --language c has all functions, and is C++ too"
+                "error: --language {name}: {why}\n  = hint: --language c has all functions, and is C++ too"
             )
         }
         Unable::Program(NoProgram::Energy) => {
@@ -206,8 +259,8 @@ fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failur
     Ok(())
 }
 
-fn report(generated: &Generated, language: Language, folder: &Path) -> String {
-    let mut text = format!("{} in {}\n", styled(language.name(), HEADING), folder.display());
+fn report(generated: &Generated, what: &str, test: &str, folder: &Path) -> String {
+    let mut text = format!("{} in {}\n", styled(what, HEADING), folder.display());
     for file in &generated.files {
         text += &format!(
             "  {}  {}\n",
@@ -221,7 +274,7 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
     if let Some(ik) = &generated.inverse {
         text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));
     }
-    text += &format!("test it there with: {}\n", generated.test_command(language));
+    text += &format!("test it there with: {test}\n");
     text
 }
 
