@@ -82,7 +82,7 @@ pub struct RobotsArguments {
 }
 
 /// The robot that a command is about.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct RobotArguments {
     /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex, .typ) or program that makes a robot
     /// (.m, .py); - reads a robot file, URDF, MJCF or table from standard input
@@ -405,7 +405,7 @@ pub struct DeriveArguments {
 }
 
 /// `generate`
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct GenerateArguments {
     /// The robot.
     #[command(flatten)]
@@ -431,6 +431,12 @@ pub struct GenerateArguments {
     /// those of its links otherwise
     #[arg(long, value_enum)]
     pub masses: Option<MassesName>,
+    /// The SRDF that names the chain, with --group: a planning group of MoveIt's
+    #[arg(long, value_name = "FILE", requires = "group", conflicts_with_all = ["base", "tip", "whole"])]
+    pub srdf: Option<String>,
+    /// The group of the SRDF
+    #[arg(long, value_name = "NAME", requires = "srdf")]
+    pub group: Option<String>,
     /// Dynamic functions of all joints of a tree of bodies (a URDF, an MJCF or a tree of rows), q1, q2, … in their order, and not of
     /// one chain through it: the root stands still
     #[arg(long, conflicts_with_all = ["given", "wrench", "payload", "base", "tip"])]

@@ -4,9 +4,9 @@ use crate::arguments::{GenerateArguments, LanguageName};
 use crate::commands::dynamics::tree;
 use crate::commands::fk::tree::bodies;
 use crate::failure::Failure;
-use crate::load::{self, Around};
+use crate::load::{self, Around, Tree};
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
-use denavit::description::Description;
+use denavit::description::{Description, MAX_XML_BYTES, read_srdf, render};
 use denavit::dynamics::{Loads, NoProgram};
 use denavit::inverse;
 use denavit::robot::Robot;
@@ -39,6 +39,8 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             true
         }
     });
+    let of_group = group_chain(arguments)?;
+    let arguments = of_group.as_ref().unwrap_or(arguments);
     let language: Language = arguments.language.into();
     if arguments.float && !matches!(language, Language::C | Language::Cuda) {
         return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
@@ -96,6 +98,25 @@ fn of_chain(
     denavit_generate::generate(&description, &options).map_err(|why| refused(&why, arguments))
 }
 
+/// The arguments with base and tip of the group that they name.
+fn group_chain(arguments: &GenerateArguments) -> Result<Option<GenerateArguments>, Failure> {
+    let (Some(file), Some(name)) = (&arguments.srdf, &arguments.group) else { return Ok(None) };
+    let Some(Tree::Bodies(mechanism)) = load::mechanism(&arguments.robot)? else {
+        return Err(Failure::Usage("--srdf is for the groups of a URDF or MJCF".into()));
+    };
+    let text = load::contents(file, MAX_XML_BYTES)
+        .map_err(|e| Failure::Input(format!("error: {file}: {e}")))?;
+    let (groups, findings) =
+        read_srdf(&text).map_err(|errors| Failure::Input(render(&errors, file, &text)))?;
+    note(render(&findings, file, &text).trim_end());
+    let [base, tip] = mechanism
+        .ends_of_group(&groups, name)
+        .map_err(|why| Failure::Input(format!("error: {file}: {why}")))?;
+    let mut own = arguments.clone();
+    (own.robot.base, own.robot.tip) = (Some(base), Some(tip));
+    Ok(Some(own))
+}
+
 /// What is written for `--language ros2`.
 const ROS2: &str = "ROS 2 package";
 
@@ -132,7 +153,8 @@ fn package(
     let robot = Robot::numeric(description).map_err(|missing| {
         Failure::Input(format!("error: {file}: {missing}\n  = hint: give values with --set"))
     })?;
-    let links = Links::new(&both.0, &both.1, &robot);
+    let mut links = Links::new(&both.0, &both.1, &robot);
+    links.group.clone_from(&arguments.group);
     generate_ros2(description, &links, options).map_err(|why| refused(&why, arguments))
 }
 
