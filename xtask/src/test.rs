@@ -53,6 +53,8 @@ const QUICK: &[Step] = &[
 const FULL: &[Step] = &[
     step("limits of size", &["web"]),
     step("page in full", &["page", "--timed"]),
+    step("every robot", &["languages", "--every"]),
+    step("firmware", &["firmware"]),
     step("certificates", &["certificates"]),
     step("counts of dynamics", &["counts", "dynamics", "--check"]),
     step("descriptions", &["descriptions"]),
