@@ -276,7 +276,7 @@ static void answer_probe(
         found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 40);
         found.branch = -1;
         found.multiplicity = 1;
-        if (found.residual <= 1e-10) {
+        if (found.residual <= 1e-12) {
             answer_add(goal@parameters_passed@, result, &found);
         }
     }
@@ -318,7 +318,7 @@ static @name@_ik_status answer_singular(
             found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 20);
             found.branch = -1;
             found.multiplicity = 1;
-            if (found.residual <= 1e-10) {
+            if (found.residual <= 1e-12) {
                 answer_add(goal@parameters_passed@, result, &found);
             }
         }

@@ -358,7 +358,7 @@ function known = led(a, goal, known, starts, steps)
 % Adds the solutions to which Newton's method leads from configurations.
 if ~isempty(starts)
     [q, missed] = corrected(a, goal, starts, true, steps);
-    is_good = missed <= 1e-10;
+    is_good = missed <= 1e-12;
     count = sum(is_good);
     found = solutions_of(q(is_good, :), missed(is_good), ones(count, 1), -ones(count, 1));
     known = add(a, goal, known, found);
