@@ -8,7 +8,7 @@
 mod c;
 mod javascript;
 mod matlab;
-mod python;
+pub(crate) mod python;
 mod rust;
 
 use super::{Solver, samples};

@@ -1,8 +1,10 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust and C.
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C and Python.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, Python in
+//! `general/python/*`, over arrays.
 
 mod c;
+mod python;
 mod rust;
 
 use super::PackageOptions;
@@ -27,7 +29,7 @@ pub(super) struct General {
     language: Language,
     axes: SixAxes,
     plan: Plan,
-    /// What C prints.
+    /// What languages other than Rust print.
     tables: Option<Tables>,
     is_angle: [bool; 6],
     /// What lengths are compared with, metres.
@@ -74,15 +76,17 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast if tables.is_some() => {}
-            Language::C | Language::IkFast => {
-                return Err(Some(
-                    "elimination in C serves arms with at most one prismatic joint; --language rust serves this one".into(),
-                ));
+            Language::C | Language::IkFast | Language::Python if tables.is_some() => {}
+            Language::C | Language::IkFast | Language::Python => {
+                return Err(Some(format!(
+                    "elimination in {} serves arms with at most one prismatic joint; --language rust serves this one",
+                    options.language.name()
+                )));
             }
-            Language::Python | Language::Matlab | Language::JavaScript | Language::Cuda => {
+            Language::Matlab | Language::JavaScript | Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C and Rust (--language c, --language rust; --language ikfast is C++)".into(),
+                    "elimination is generated in C, Rust and Python (--language c, rust, python; --language ikfast is C++)"
+                        .into(),
                 ));
             }
         }
@@ -130,6 +134,7 @@ impl General {
         match (&self.tables, self.language) {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
+            (Some(tables), Language::Python) => python::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }
