@@ -7,7 +7,7 @@
 
 mod c;
 mod javascript;
-mod matlab;
+pub(crate) mod matlab;
 pub(crate) mod python;
 mod rust;
 

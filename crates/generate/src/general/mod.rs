@@ -1,9 +1,10 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C and Python.
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C, Python and MATLAB.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, Python in
-//! `general/python/*`, over arrays.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, Python and
+//! MATLAB in folders of their names, over arrays.
 
 mod c;
+mod matlab;
 mod python;
 mod rust;
 
@@ -76,16 +77,16 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast | Language::Python if tables.is_some() => {}
-            Language::C | Language::IkFast | Language::Python => {
+            Language::C | Language::IkFast | Language::Python | Language::Matlab if tables.is_some() => {}
+            Language::C | Language::IkFast | Language::Python | Language::Matlab => {
                 return Err(Some(format!(
                     "elimination in {} serves arms with at most one prismatic joint; --language rust serves this one",
                     options.language.name()
                 )));
             }
-            Language::Matlab | Language::JavaScript | Language::Cuda => {
+            Language::JavaScript | Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C, Rust and Python (--language c, rust, python; --language ikfast is C++)"
+                    "elimination is generated in C, Rust, Python and MATLAB (--language c, rust, python, matlab; ikfast is C++)"
                         .into(),
                 ));
             }
@@ -135,6 +136,7 @@ impl General {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
             (Some(tables), Language::Python) => python::attachment(self, tables),
+            (Some(tables), Language::Matlab) => matlab::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }

@@ -480,5 +480,6 @@ fn javascript_answers_as_c_does() {
 fn octave_answers_as_c_does() {
     if has(&["octave", "--version"]) {
         agree(&OCTAVE, "octave", &TWINS, [8, 3, 1]);
+        agree(&OCTAVE, "octave", &ELIMINATED, REGULAR);
     }
 }
