@@ -414,10 +414,11 @@ pub struct GenerateArguments {
     #[arg(long, short, value_enum)]
     pub language: LanguageName,
     /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), jacobian (of the tool),
-    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose; in C and Rust ik_nearest
-    /// and ik_all_within_limits, too); torque (inverse dynamics), inertia, bias, gravity, acceleration (direct dynamics),
-    /// energy, torque_derivatives, acceleration_derivatives; torque_with_derivatives, acceleration_with_derivatives (both
-    /// in one pass). Without it fk and, where there is one, ik; what is named is there, or nothing is written
+    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose; but for CUDA, ikfast
+    /// and --float also ik_nearest and ik_all_within_limits); torque (inverse dynamics), inertia, bias, gravity,
+    /// acceleration (direct dynamics), energy, torque_derivatives, acceleration_derivatives; torque_with_derivatives,
+    /// acceleration_with_derivatives (both in one pass). Without it fk and, where there is one, ik; what is named is there,
+    /// or nothing is written
     #[arg(long, short, value_name = "NAMES")]
     pub functions: Option<String>,
     /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);

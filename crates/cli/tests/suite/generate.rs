@@ -140,9 +140,9 @@ fn refusals() {
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--name", "/"], 2, "--name needs");
     refused(&["generate", "prrrrp", "--language", "c", "-o", "x", "--fixed"], 3, "no value for");
     refused(
-        &["generate", "oblique-6r", "--language", "python", "-o", "x", "--functions", "ik"],
+        &["generate", "oblique-6r", "--language", "cuda", "-o", "x", "--functions", "ik"],
         4,
-        "elimination is generated in C and Rust",
+        "elimination is generated in C, Rust, Python and MATLAB",
     );
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
     refused(

@@ -1,8 +1,11 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust and C.
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C, Python and MATLAB.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, Python and
+//! MATLAB in folders of their names, over arrays.
 
 mod c;
+mod matlab;
+mod python;
 mod rust;
 
 use super::PackageOptions;
@@ -27,7 +30,7 @@ pub(super) struct General {
     language: Language,
     axes: SixAxes,
     plan: Plan,
-    /// What C prints.
+    /// What languages other than Rust print.
     tables: Option<Tables>,
     is_angle: [bool; 6],
     /// What lengths are compared with, metres.
@@ -74,15 +77,17 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast if tables.is_some() => {}
-            Language::C | Language::IkFast => {
-                return Err(Some(
-                    "elimination in C serves arms with at most one prismatic joint; --language rust serves this one".into(),
-                ));
+            Language::C | Language::IkFast | Language::Python | Language::Matlab if tables.is_some() => {}
+            Language::C | Language::IkFast | Language::Python | Language::Matlab => {
+                return Err(Some(format!(
+                    "elimination in {} serves arms with at most one prismatic joint; --language rust serves this one",
+                    options.language.name()
+                )));
             }
-            Language::Python | Language::Matlab | Language::JavaScript | Language::Cuda => {
+            Language::JavaScript | Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C and Rust (--language c, --language rust; --language ikfast is C++)".into(),
+                    "elimination is generated in C, Rust, Python and MATLAB (--language c, rust, python, matlab; ikfast is C++)"
+                        .into(),
                 ));
             }
         }
@@ -130,6 +135,8 @@ impl General {
         match (&self.tables, self.language) {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
+            (Some(tables), Language::Python) => python::attachment(self, tables),
+            (Some(tables), Language::Matlab) => matlab::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }

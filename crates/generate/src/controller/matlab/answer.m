@@ -334,7 +334,7 @@ function [solutions, is_all] = listed(a, goal, given)
 % What @name@_solve lists, and whether that is all.
 parameters = a.parameters; %#ok<NASGU>
 [q, info] = @name@_solve([@flatten@]@solve_parameters@);
-solutions = solutions_of(q, info.residual, info.multiplicity, info.branch);
+solutions = solutions_of(q, info.residual, info.multiplicity, @branch@);
 is_all = strcmp(info.certificate, 'complete');
 end
 
