@@ -1,5 +1,5 @@
 //! Generated C as firmware: for a Cortex-M7 it is compiled, weighed and run in qemu, which counts instructions; cppcheck and clang-tidy
-//! read it.
+//! read it. In Rust it is compiled for the same processor.
 
 use crate::languages::{apt, quietly};
 use crate::{command, program, scratch};
@@ -59,6 +59,7 @@ pub fn run() -> Result<()> {
         quietly(generate.arg(&folder))?;
         read(&folder)?;
         let code = compiled(&folder)?;
+        rust(&program, arm.name, &root)?;
         for measured in ran(arm, &folder)? {
             let [name, mean, most, stack] = &measured[..] else {
                 bail!("four words a function: {measured:?}")
@@ -140,6 +141,21 @@ fn compiled(folder: &Path) -> Result<u64> {
     let [code, data, zeros] = numbers[..] else { bail!("sizes: {text}") };
     ensure!(data == 0 && zeros == 0, "the functions have variables of their own: {text}");
     Ok(code)
+}
+
+/// Compiles the package in Rust for the same processor, without the standard library.
+fn rust(program: &Path, arm: &str, root: &Path) -> Result<()> {
+    const TARGET: &str = "thumbv7em-none-eabihf";
+    quietly(command("rustup").args(["target", "add", TARGET]))?;
+    let folder = root.join("rust").join(arm);
+    let mut generate = command(program);
+    generate.args(["generate", arm, "--language", "rust", "--fixed", "--force", "--output"]);
+    quietly(generate.arg(&folder))?;
+    // A package of its own, wherever the folder lies.
+    fs::write(root.join("rust/Cargo.toml"), "[workspace]\nresolver = \"3\"\nmembers = [\"*\"]\n")?;
+    let mut cargo = crate::cargo();
+    cargo.args(["build", "--release", "--quiet", "--offline", "--no-default-features", "--target", TARGET]);
+    quietly(cargo.env("CARGO_TARGET_DIR", root.join("rust-target")).current_dir(&folder))
 }
 
 /// Runs the firmware; for each function its name, instructions in the mean and at most, and bytes of stack.

@@ -33,6 +33,13 @@ pub struct Link {
     pub known: Vec<(Vec<f64>, [[f64; 4]; 3])>,
 }
 
+/// A configuration: the joint variables, and in the base the frames of the table and the bodies.
+struct Tried {
+    q: Vec<f64>,
+    frames: Vec<Transform<f64>>,
+    bodies: Vec<Transform<f64>>,
+}
+
 /// How many configurations tell whether a link stands still on a frame, and how many of them are kept.
 const TRIED: usize = 5;
 const KEPT: usize = 2;
@@ -45,8 +52,7 @@ impl Links {
         let mut random = Random(7);
         let variables = m.variables();
         let placing = m.placing();
-        // For each configuration the joint variables, the frames of the table and the bodies, in the base.
-        let tried: Vec<(Vec<f64>, Vec<Transform<f64>>, Vec<Transform<f64>>)> = (0..TRIED)
+        let tried: Vec<Tried> = (0..TRIED)
             .map(|_| {
                 let q: Vec<f64> = (0..robot.joints).map(|_| 2.0 * random.unit() - 1.0).collect();
                 let mut all: Vec<f64> = variables.iter().map(|_| 2.0 * random.unit() - 1.0).collect();
@@ -58,18 +64,18 @@ impl Links {
                 }
                 let poses = placing.poses(&all);
                 let back = poses[chain.from].inverse();
-                let poses = poses.iter().map(|x| back * *x).collect();
+                let bodies = poses.iter().map(|x| back * *x).collect();
                 let frames = robot.frames(&q);
-                (q, frames, poses)
+                Tried { q, frames, bodies }
             })
             .collect();
-        let lengths = tried.iter().flat_map(|(_, frames, poses)| frames.iter().chain(poses));
+        let lengths = tried.iter().flat_map(|t| t.frames.iter().chain(&t.bodies));
         let size = lengths.map(|x| x.translation.norm()).fold(1e-3, f64::max);
         let links = (0..m.bodies.len()).filter_map(|b| {
-            let on = |k: usize, t: usize| tried[t].1[k].inverse() * tried[t].2[b];
+            let on = |k: usize, t: usize| tried[t].frames[k].inverse() * tried[t].bodies[b];
             let is_still = |&k: &usize| (1..TRIED).all(|t| apart(&on(k, 0), &on(k, t), size) <= STILL);
             let frame = (0..=robot.links.len()).find(is_still)?;
-            let known = tried.iter().take(KEPT).map(|(q, _, poses)| (q.clone(), rows(&poses[b])));
+            let known = tried.iter().take(KEPT).map(|t| (t.q.clone(), rows(&t.bodies[b])));
             Some(Link {
                 name: m.bodies[b].name.clone(),
                 frame,

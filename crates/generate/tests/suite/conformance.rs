@@ -74,6 +74,8 @@ int main(void) {
 /// The same in another language: what its program is called with, ahead of the file that runs.
 struct Twin {
     language: Language,
+    /// What rustc is called with ahead of it.
+    build: &'static [&'static [&'static str]],
     command: &'static [&'static str],
     file: &'static str,
     driver: &'static str,
@@ -81,6 +83,7 @@ struct Twin {
 
 const PYTHON: Twin = Twin {
     language: Language::Python,
+    build: &[],
     command: &["-B", "-W", "error"],
     file: "driver.py",
     driver: "
@@ -97,8 +100,39 @@ for line in sys.stdin:
 ",
 };
 
+const RUST: Twin = Twin {
+    language: Language::Rust,
+    build: &[
+        &["--crate-type", "lib", "--crate-name", "arm", "--cfg", "feature=\"std\"", "src/lib.rs"],
+        &["driver.rs", "--extern", "arm=libarm.rlib"],
+    ],
+    command: &[],
+    file: "driver.rs",
+    driver: r#"
+use arm::*;
+fn main() {
+    for line in std::io::stdin().lines() {
+        let line = line.unwrap();
+        let numbers: Vec<f64> = line.split_whitespace().map(|x| x.parse().unwrap()).collect();
+        let mut pose = [[0.0; 4]; 4];
+        (0..12).for_each(|k| pose[k / 4][k % 4] = numbers[k]);
+        let given: [f64; @given_count@] = std::array::from_fn(|k| numbers[12 + k]);
+        let _ = given;
+        let result = ik(&pose@given@);
+        print!("{} {}", result.status as u32, result.solutions().len());
+        for s in result.solutions() {
+            print!(" {}", s.dimension);
+            s.q.iter().for_each(|x| print!(" {x:e}"));
+        }
+        println!();
+    }
+}
+"#,
+};
+
 const JAVASCRIPT: Twin = Twin {
     language: Language::JavaScript,
+    build: &[],
     command: &[],
     file: "driver.mjs",
     driver: r#"
@@ -117,6 +151,7 @@ for (const line of readFileSync(0, "utf8").trim().split("\n")) {
 
 const OCTAVE: Twin = Twin {
     language: Language::Matlab,
+    build: &[],
     command: &["--no-gui", "--quiet"],
     file: "driver.m",
     driver: r"
@@ -441,8 +476,21 @@ fn agree(twin: &Twin, program: &str, arms: &[&'static str], counts: [usize; 3]) 
         let arm = Arm::new(&format!("twin-{:?}", twin.language), name, &d);
         let folder = arm.folder.join("twin");
         written(&d, twin.language, &folder);
-        let driver = twin.driver.replace("@given@", if arm.given.is_empty() { "" } else { ", given" });
+        let passed = match (arm.given.is_empty(), twin.language) {
+            (true, _) => "",
+            (false, Language::Rust) => ", &given",
+            _ => ", given",
+        };
+        let driver =
+            twin.driver.replace("@given@", passed).replace("@given_count@", &arm.given.len().to_string());
         fs::write(folder.join(twin.file), driver).expect("it can be written");
+        for arguments in twin.build {
+            let mut rustc = Command::new("rustc");
+            let built =
+                rustc.args(["-O", "--edition", "2024"]).args(*arguments).current_dir(&folder).output();
+            let built = built.expect("rustc is there");
+            assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+        }
         let all: Vec<Vec<f64>> = configurations(&arm, counts).concat();
         let given = |q: &[f64]| arm.given.iter().map(|&j| q[j]).collect();
         let poses: Vec<_> = all.iter().map(|q| (arm.robot.pose(q), given(q))).collect();
@@ -458,6 +506,12 @@ fn agree(twin: &Twin, program: &str, arms: &[&'static str], counts: [usize; 3]) 
             assert!(a.members.iter().all(|s| arm.missed(pose, s) <= 1e-8), "{name} {q:?}: {:?}", a.members);
         }
     }
+}
+
+#[test]
+fn rust_answers_as_c_does() {
+    agree(&RUST, "./driver", &TWINS, [200, 60, 40]);
+    agree(&RUST, "./driver", &ELIMINATED, REGULAR);
 }
 
 #[test]
