@@ -121,7 +121,7 @@ pub fn every() -> Result<()> {
             let output = generate.arg(&target).stdin(Stdio::null()).output()?;
             if !output.status.success() {
                 let said = String::from_utf8_lossy(&output.stderr);
-                let why = said.lines().find(|l| l.starts_with("error")).unwrap_or("no reason").to_string();
+                let why = said.lines().last().unwrap_or("no reason").to_string();
                 let list = if output.status.code() == Some(4) { &mut refused } else { &mut failed };
                 list.push(format!("{stem} in {language}: {why}"));
             } else if language == "rust" {
