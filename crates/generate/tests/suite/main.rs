@@ -6,6 +6,7 @@ mod conformance;
 mod general;
 mod ikfast;
 mod library;
+mod stack;
 
 #[path = "../../../robot/tests/suite/common/mod.rs"]
 mod common;
