@@ -1,6 +1,6 @@
 //! The constants of a plan as plain numbers: what a port to another language prints.
 
-use crate::{arm::Arm, fourier::Fourier, plan::Plan, solve::Method, split::Split};
+use crate::{arm::Arm, fourier::Fourier, plan::Plan, solve::Method, split::Split, wide};
 
 /// The constants of a plan for an arm with at most one slide.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct Tables {
     pub samples: Samples,
     /// Where that of the wider matrix is, for poses at which the other one vanishes identically.
     pub wide: Samples,
+    /// The weights of the six equations in each row of the wider matrix.
+    pub mixtures: Vec<[f64; 6]>,
 }
 
 /// Angles at which a determinant is sampled, and what the samples add to its polynomial.
@@ -51,6 +53,7 @@ impl Plan {
             splits: splits.clone(),
             samples: Samples::new(&self.constants.fourier),
             wide: Samples::new(&self.constants.wide),
+            mixtures: (0..16).map(|i| std::array::from_fn(|j| wide::weight(i, j))).collect(),
         })
     }
 }

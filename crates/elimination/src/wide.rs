@@ -153,7 +153,7 @@ fn place(form: &Form, multiplier: usize, row: &mut [f64; MONOMIALS]) {
 }
 
 /// A fixed number between −1 and 1 without pattern.
-fn weight(i: usize, j: usize) -> f64 {
+pub(crate) fn weight(i: usize, j: usize) -> f64 {
     let x = (6 * i + j + 1) as f64 * 0.754_877_666_246_692_8;
     let y = (x - x.floor()) * 997.0;
     2.0 * (y - y.floor()) - 1.0

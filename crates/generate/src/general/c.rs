@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// The parts of the source file behind the types and the tables.
-const PARTS: [&str; 9] = [
+const PARTS: [&str; 10] = [
     include_str!("eliminate.c"),
     include_str!("determinant.c"),
     include_str!("roots.c"),
@@ -16,6 +16,7 @@ const PARTS: [&str; 9] = [
     include_str!("extract.c"),
     include_str!("complete.c"),
     include_str!("newton.c"),
+    include_str!("candidates.c"),
     include_str!("wide.c"),
     include_str!("solve.c"),
 ];
@@ -66,6 +67,8 @@ fn constants(general: &General, tables: &Tables) -> String {
     text.push_str("\n/* The same of the wider matrix. */\n");
     let at = &tables.wide;
     text.push_str(&samples("ik_wide_", "IK_WIDE_SAMPLES", [&at.cosines, &at.sines], &at.transform));
+    text.push_str("\n/* What its rows are mixed of. */\n");
+    text.push_str(&matrix("ik_mixtures[IK_MONOMIALS][6]", &tables.mixtures));
 
     text.push_str("\n/* The splits in the order in which they are tried. */\n");
     let splits: Vec<String> = tables.splits.iter().map(split).collect();

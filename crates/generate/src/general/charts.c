@@ -87,7 +87,7 @@ static double ik_clear(const ik_work *work, double from, double side, double noi
 {
     double at = from;
     double step = side * 5e-4;
-    for (int k = 0; k < 3 * IK_LANES; k++) {
+    for (int k = 0; k < 24; k++) {
         double re = 0.0, im = 0.0;
         at += step;
         step *= 1.3;
@@ -106,14 +106,38 @@ static double ik_clear(const ik_work *work, double from, double side, double noi
     return at;
 }
 
+/* Angles in a chart, and which of them do not fit. */
+typedef struct ik_marks {
+    int count;
+    double angles[48];
+    int marked[48];
+} ik_marks;
+
+/* Adds an angle in its place. */
+static void ik_mark(ik_marks *marks, double angle, int marked)
+{
+    int at = marks->count;
+    if (at == 48) {
+        return;
+    }
+    while (at > 0 && marks->angles[at - 1] > angle) {
+        marks->angles[at] = marks->angles[at - 1];
+        marks->marked[at] = marks->marked[at - 1];
+        at--;
+    }
+    marks->angles[at] = angle;
+    marks->marked[at] = marked;
+    marks->count++;
+}
+
 /* The arcs in which there may be roots that are not where they seem to be; their number. */
-static int ik_crowds(const ik_work *work, double arcs[8][2])
+static int ik_crowds(const ik_work *work, const ik_marks *marks, double arcs[IK_ARCS][2])
 {
     const double noise = 2.0 * ik_noise(work);
     int count = 0;
-    for (int k = 0; k < work->marks; k++) {
-        const double angle = work->angles[k];
-        int is_known = !work->marked[k];
+    for (int k = 0; k < marks->count; k++) {
+        const double angle = marks->angles[k];
+        int is_known = !marks->marked[k];
         for (int j = 0; j < count; j++) {
             const double away = ik_modulo(angle - arcs[j][0]);
             is_known |= away < arcs[j][1] || IK_TURN - away < arcs[j][1];
@@ -121,7 +145,7 @@ static int ik_crowds(const ik_work *work, double arcs[8][2])
         if (is_known) {
             continue;
         }
-        if (count == 8) {
+        if (count == IK_ARCS) {
             return 0;
         }
         const double low = ik_clear(work, angle, -1.0, noise);
@@ -133,30 +157,17 @@ static int ik_crowds(const ik_work *work, double arcs[8][2])
     return count;
 }
 
-/* Adds an angle in its place. */
-static void ik_mark(ik_work *work, double angle, int marked)
-{
-    int at = work->marks;
-    if (at == 48) {
-        return;
-    }
-    while (at > 0 && work->angles[at - 1] > angle) {
-        work->angles[at] = work->angles[at - 1];
-        work->marked[at] = work->marked[at - 1];
-        at--;
-    }
-    work->angles[at] = angle;
-    work->marked[at] = marked;
-    work->marks++;
-}
-
 /* The discs hold the roots of all polynomials that differ by the noise: each one that reaches the
-   circle must belong to a configuration of its own. */
-static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *work)
+   circle must belong to a configuration of its own. Where something does not fit, the arcs where it
+   does not. */
+static NOINLINE int ik_verdict(
+    const ik_split *split, const ik_chart *chart, const ik_work *work, double arcs[IK_ARCS][2], int *crowds)
 {
+    ik_marks marks;
     int open[IK_WIDE_ROOTS], all[IK_WIDE_ROOTS];
     int reaching = 0, strangers = 0, inside = 0, pairs;
-    work->marks = 0;
+    marks.count = 0;
+    *crowds = 0;
     for (int k = 0; k < work->roots; k++) {
         const double modulus = sqrt(work->x[k] * work->x[k] + work->y[k] * work->y[k]);
         const int off = fabs(modulus - 1.0) > work->radius[k];
@@ -165,11 +176,11 @@ static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *wor
         reaching += open[k];
     }
     for (int i = 0; i < work->count; i++) {
-        const double *value = work->found[i].values[split->joints[2]];
+        const double angle = work->found[i].q[split->joints[2]];
         double at[2];
         int nearest = -1;
         double least = HUGE_VAL;
-        ik_inside(chart, value[0], value[1] * split->sign, at);
+        ik_inside(chart, cos(angle), sin(angle) * split->sign, at);
         if (!ik_answers_for(chart, at[0])) {
             continue;
         }
@@ -190,7 +201,7 @@ static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *wor
             reaching--;
         } else {
             strangers++;
-            ik_mark(work, atan2(at[1], at[0]), 1);
+            ik_mark(&marks, atan2(at[1], at[0]), 1);
         }
     }
     if (strangers == 0 && reaching == 0) {
@@ -203,7 +214,7 @@ static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *wor
         if (!all[k]) {
             continue;
         }
-        ik_mark(work, atan2(work->y[k], work->x[k]), open[k] || !(r < 1e-2));
+        ik_mark(&marks, atan2(work->y[k], work->x[k]), open[k] || !(r < 1e-2));
         if (!open[k]) {
             continue;
         }
@@ -214,5 +225,6 @@ static int ik_verdict(const ik_split *split, const ik_chart *chart, ik_work *wor
         }
         pairs = pairs && r < 0.02 && has_other;
     }
+    *crowds = ik_crowds(work, &marks, arcs);
     return pairs ? IK_PAIRS : IK_UNCERTAIN;
 }

@@ -77,33 +77,33 @@ static void ik_trio(const ik_split *split, const double *x, double ring[6][2])
 }
 
 /* All joints; the branch (1, -1) chooses between the first joint's angles where the forms leave it open. */
-static void ik_complete(
-    const ik_split *split, const ik_eliminated *e, double branch, const ik_candidate *from,
-    double out[6][2])
+static NOINLINE void ik_complete(
+    const ik_split *split, const ik_eliminated *e, double branch, const double hidden[2],
+    const double *unknowns, double out[6][2])
 {
-    const ik_rigid *links = e->links;
+    const ik_rigid *const *links = e->links;
     const int *slides = split->slides;
     double ring[6][2];
     double p[3], l[3], x[3], v[3], p2[3], l2[3];
-    ring[2][0] = from->hidden[0];
-    ring[2][1] = from->hidden[1];
-    ik_trio(split, from->x, ring);
+    ring[2][0] = hidden[0];
+    ring[2][1] = hidden[1];
+    ik_trio(split, unknowns, ring);
 
     /* The dropped joint's line, and its x direction, in the frame before the second joint's inverse. */
     for (int k = 0; k < 3; k++) {
-        p[k] = links[4].t[k];
-        l[k] = links[4].r[k][2];
-        x[k] = links[4].r[k][0];
+        p[k] = links[4]->t[k];
+        l[k] = links[4]->r[k][2];
+        x[k] = links[4]->r[k][0];
     }
     for (int i = 4; i > 1; i--) {
         ik_move(slides[i], ring[i], 1, p);
         ik_move(slides[i], ring[i], 0, l);
         ik_move(slides[i], ring[i], 0, x);
-        ik_point(&links[i - 1], p, v);
+        ik_point(links[i - 1], p, v);
         memcpy(p, v, sizeof v);
-        ik_turn(&links[i - 1], l, v);
+        ik_turn(links[i - 1], l, v);
         memcpy(l, v, sizeof v);
-        ik_turn(&links[i - 1], x, v);
+        ik_turn(links[i - 1], x, v);
         memcpy(x, v, sizeof v);
     }
 
@@ -135,12 +135,12 @@ static void ik_complete(
     /* The same line from the other side, up to the second joint. */
     const double origin[3] = {0.0, 0.0, 0.0};
     const double back[2] = {slides[0] ? -ring[0][0] : ring[0][0], -ring[0][1]};
-    ik_point_back(&links[5], origin, v);
+    ik_point_back(links[5], origin, v);
     ik_move(slides[0], back, 1, v);
-    ik_point_back(&links[0], v, p2);
-    memcpy(v, links[5].r[2], sizeof v);
+    ik_point_back(links[0], v, p2);
+    memcpy(v, links[5]->r[2], sizeof v);
     ik_move(slides[0], back, 0, v);
-    ik_turn_back(&links[0], v, l2);
+    ik_turn_back(links[0], v, l2);
     if (slides[1]) {
         ring[1][0] = p2[2] - p[2];
         ring[1][1] = 0.0;
@@ -152,9 +152,9 @@ static void ik_complete(
 
     /* The dropped joint. */
     ik_move(slides[1], ring[1], 0, x);
-    ik_turn(&links[0], x, v);
+    ik_turn(links[0], x, v);
     ik_move(slides[0], ring[0], 0, v);
-    ik_turn(&links[5], v, x);
+    ik_turn(links[5], v, x);
     ik_unit(x[0], -x[1], ring[5]);
     for (int i = 0; i < 6; i++) {
         out[split->joints[i]][0] = slides[i] ? ring[i][0] * split->sign : ring[i][0];

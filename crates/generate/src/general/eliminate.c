@@ -99,7 +99,7 @@ static void ik_moved(const ik_rigid *by, double of[IK_FORMS][9], double out[IK_F
 }
 
 /* The right sides over the monomials of the first two joints, the second's fastest. */
-static void ik_right_side(const ik_split *split, ik_eliminated *out, double right[IK_FORMS][9])
+static NOINLINE void ik_right_side(const ik_split *split, ik_eliminated *out, double right[IK_FORMS][9])
 {
     static const int left_alone[2][6] = {{2, 5, 6, 7, 10, 13}, {0, 1, 3, 4, 5, 10}};
     const double origin[3] = {0.0, 0.0, 0.0};
@@ -118,11 +118,11 @@ static void ik_right_side(const ik_split *split, ik_eliminated *out, double righ
             at.r[0][1] = -s;
             at.r[1][0] = s;
         }
-        ik_point_back(&out->links[5], origin, p);
+        ik_point_back(out->links[5], origin, p);
         ik_point_back(&at, p, v);
-        ik_point_back(&out->links[0], v, p);
-        ik_turn_back(&at, out->links[5].r[2], v);
-        ik_turn_back(&out->links[0], v, l);
+        ik_point_back(out->links[0], v, p);
+        ik_turn_back(&at, out->links[5]->r[2], v);
+        ik_turn_back(out->links[0], v, l);
         ik_forms(p, l, samples[node]);
     }
     for (int k = 0; k < IK_FORMS; k++) {
@@ -140,7 +140,7 @@ static void ik_right_side(const ik_split *split, ik_eliminated *out, double righ
     }
     if (split->pose_link == 1) {
         double own[IK_FORMS][9];
-        const ik_rigid back = ik_inverse(&out->links[1]);
+        const ik_rigid back = ik_inverse(out->links[1]);
         ik_move_back(split->slides[1], first, own);
         ik_moved(&back, own, right);
     } else {
@@ -203,22 +203,15 @@ static double ik_mixture(int i, int j)
     return 2.0 * (y - floor(y)) - 1.0;
 }
 
-/* Eliminates the first two joints: Householder's QR with column pivoting. */
-static void ik_eliminate(const ik_split *split, const ik_rigid *closing, ik_eliminated *out)
+/* Eliminates what is on the right side: Householder's QR with column pivoting. */
+static NOINLINE void ik_orthogonalise(
+    const ik_split *split, double right[IK_FORMS][9], ik_eliminated *out)
 {
     enum { COLUMNS = 40 };
-    double right[IK_FORMS][9];
     double rows[IK_FORMS][COLUMNS];
     int used[8] = {0, 0, 0, 0, 0, 0, 0, 0};
     int rank = 0;
     double largest = 0.0;
-    for (int i = 0; i < 6; i++) {
-        out->links[i] = split->links[i];
-    }
-    out->links[split->pose_link] = split->sign > 0.0 ? *closing : ik_inverse(closing);
-    ik_right_side(split, out, right);
-    ik_first_joint(split->slides[0], out);
-
     /* Columns 0 to 7: the right side without its constant; then the left side minus that constant. */
     for (int i = 0; i < IK_FORMS; i++) {
         for (int c = 0; c < 8; c++) {
@@ -302,4 +295,20 @@ static void ik_eliminate(const ik_split *split, const ik_rigid *closing, ik_elim
             out->rows[i][c] = mixed[c] * scale;
         }
     }
+}
+
+/* Eliminates the first two joints. */
+static NOINLINE void ik_eliminate(const ik_split *split, const ik_rigid *goal, ik_eliminated *out)
+{
+    double right[IK_FORMS][9];
+    const ik_rigid back = ik_inverse(goal);
+    ik_rigid closing = ik_then(&ik_links[5], &back);
+    closing = ik_then(&closing, &ik_base);
+    out->closing = split->sign > 0.0 ? closing : ik_inverse(&closing);
+    for (int i = 0; i < 6; i++) {
+        out->links[i] = i == split->pose_link ? &out->closing : &split->links[i];
+    }
+    ik_right_side(split, out, right);
+    ik_first_joint(split->slides[0], out);
+    ik_orthogonalise(split, right, out);
 }

@@ -1,22 +1,29 @@
 
 /*
- * Null vectors of the matrix at known values of the hidden joint: eight at a time, or all of a shared one.
+ * Null vectors of the matrix at known values of the hidden joint: some at a time, or all of a shared one.
  */
+
+static NOINLINE void ik_reduce_few(double *m, int next, double *product)
+{
+    ik_reduce(m, next, IK_WIDTH, 3, IK_FEW, product);
+}
 
 /* The three unknowns that a reduced strip has eliminated. */
 static void ik_outer(
-    const ik_strip *strip, double middle[6][IK_LANES], double out[3][IK_LANES])
+    const double *strip, int next, double middle[6][IK_FEW], double out[3][IK_FEW])
 {
     for (int k = 2; k >= 0; k--) {
-        double sum[IK_LANES] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        const double *row = strip + k * next * IK_FEW;
+        double sum[IK_FEW] = {0.0, 0.0, 0.0, 0.0};
         for (int c = 0; c < 6; c++) {
-            ik_subtract(sum, strip->m[k][3 + c], middle[c]);
+            ik_subtract(sum, row + (3 + c) * IK_FEW, middle[c], IK_FEW);
         }
         for (int c = k + 1; c < 3; c++) {
-            ik_subtract(sum, strip->m[k][c], out[c]);
+            ik_subtract(sum, row + c * IK_FEW, out[c], IK_FEW);
         }
-        for (int l = 0; l < IK_LANES; l++) {
-            const double pivot = strip->m[k][k][l] == 0.0 ? 1e-300 : strip->m[k][k][l];
+        for (int l = 0; l < IK_FEW; l++) {
+            const double diagonal = row[k * IK_FEW + l];
+            const double pivot = diagonal == 0.0 ? 1e-300 : diagonal;
             out[k][l] = sum[l] / pivot;
         }
     }
@@ -24,34 +31,36 @@ static void ik_outer(
 
 /* A null vector in each lane, and how small the second smallest pivot is compared to the first: where
    it is small too, several solutions share the value. */
-static void ik_null_vectors(
+static NOINLINE void ik_null_vectors(
     const ik_eliminated *e, int slides, const double *c, const double *s,
-    double x[IK_UNKNOWNS][IK_LANES], double *small)
+    double x[IK_UNKNOWNS][IK_FEW], double *small)
 {
-    ik_strip upper, lower;
-    double m[6][6][IK_LANES], order[6][IK_LANES], y[6][IK_LANES], product[IK_LANES];
-    ik_strips(e, slides, c, s, &upper, &lower);
-    ik_reduce_strip(&upper, product);
-    ik_reduce_strip(&lower, product);
-    ik_core(&upper, &lower, m);
+    double strips[IK_HEIGHT][IK_WIDTH][IK_FEW];
+    double(*m)[IK_WIDTH][IK_FEW] = strips + 3;
+    double order[6][IK_FEW], y[6][IK_FEW], product[IK_FEW];
+    ik_strip(e, slides, 0, c, s, IK_FEW, IK_WIDTH, &strips[0][0][0]);
+    ik_strip(e, slides, 1, c, s, IK_FEW, -IK_WIDTH, &strips[IK_HEIGHT - 1][0][0]);
+    ik_reduce_few(&strips[0][0][0], IK_WIDTH, product);
+    ik_reduce_few(&strips[IK_HEIGHT - 1][0][0], -IK_WIDTH, product);
     for (int k = 0; k < 6; k++) {
-        for (int l = 0; l < IK_LANES; l++) {
+        for (int l = 0; l < IK_FEW; l++) {
             order[k][l] = k;
         }
     }
 
-    /* Complete pivoting: the largest entry of what is left goes to the diagonal. */
+    /* Complete pivoting of the core, columns 3 to 8: the largest entry of what is left goes to the
+       diagonal. */
     for (int k = 0; k < 5; k++) {
-        double best[IK_LANES], row[IK_LANES], column[IK_LANES], inverse[IK_LANES];
-        uint64_t where[IK_LANES];
-        for (int l = 0; l < IK_LANES; l++) {
+        double best[IK_FEW], row[IK_FEW], column[IK_FEW], inverse[IK_FEW];
+        uint64_t where[IK_FEW];
+        for (int l = 0; l < IK_FEW; l++) {
             best[l] = -1.0;
             row[l] = column[l] = 0.0;
         }
         for (int r = k; r < 6; r++) {
             for (int d = k; d < 6; d++) {
-                const double *RESTRICT entry = m[r][d];
-                for (int l = 0; l < IK_LANES; l++) {
+                const double *RESTRICT entry = m[r][3 + d];
+                for (int l = 0; l < IK_FEW; l++) {
                     const double size = fabs(entry[l]);
                     row[l] = best[l] < size ? (double)r : row[l];
                     column[l] = best[l] < size ? (double)d : column[l];
@@ -60,65 +69,65 @@ static void ik_null_vectors(
             }
         }
         for (int r = k + 1; r < 6; r++) {
-            for (int l = 0; l < IK_LANES; l++) {
+            for (int l = 0; l < IK_FEW; l++) {
                 where[l] = row[l] == (double)r ? IK_ALL : 0;
             }
             for (int d = k; d < 6; d++) {
-                ik_swap(m[k][d], m[r][d], where);
+                ik_swap(m[k][3 + d], m[r][3 + d], where, IK_FEW);
             }
         }
         for (int d = k + 1; d < 6; d++) {
-            for (int l = 0; l < IK_LANES; l++) {
+            for (int l = 0; l < IK_FEW; l++) {
                 where[l] = column[l] == (double)d ? IK_ALL : 0;
             }
             for (int r = 0; r < 6; r++) {
-                ik_swap(m[r][k], m[r][d], where);
+                ik_swap(m[r][3 + k], m[r][3 + d], where, IK_FEW);
             }
-            ik_swap(order[k], order[d], where);
+            ik_swap(order[k], order[d], where, IK_FEW);
         }
-        for (int l = 0; l < IK_LANES; l++) {
-            const double quotient = 1.0 / m[k][k][l];
-            inverse[l] = m[k][k][l] == 0.0 ? 0.0 : quotient;
+        for (int l = 0; l < IK_FEW; l++) {
+            const double quotient = 1.0 / m[k][3 + k][l];
+            inverse[l] = m[k][3 + k][l] == 0.0 ? 0.0 : quotient;
         }
         for (int r = k + 1; r < 6; r++) {
-            double factor[IK_LANES];
-            for (int l = 0; l < IK_LANES; l++) {
-                factor[l] = m[r][k][l] * inverse[l];
+            double factor[IK_FEW];
+            for (int l = 0; l < IK_FEW; l++) {
+                factor[l] = m[r][3 + k][l] * inverse[l];
             }
             for (int d = k + 1; d < 6; d++) {
-                ik_subtract(m[r][d], factor, m[k][d]);
+                ik_subtract(m[r][3 + d], factor, m[k][3 + d], IK_FEW);
             }
         }
     }
 
     /* Back substitution with the last unknown 1; then back to the order of the columns. */
-    for (int l = 0; l < IK_LANES; l++) {
-        small[l] = fabs(m[4][4][l]) / fabs(m[0][0][l]);
+    for (int l = 0; l < IK_FEW; l++) {
+        small[l] = fabs(m[4][7][l]) / fabs(m[0][3][l]);
         y[5][l] = 1.0;
     }
     for (int k = 4; k >= 0; k--) {
-        double sum[IK_LANES] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        double sum[IK_FEW] = {0.0, 0.0, 0.0, 0.0};
         for (int d = k + 1; d < 6; d++) {
-            ik_subtract(sum, m[k][d], y[d]);
+            ik_subtract(sum, m[k][3 + d], y[d], IK_FEW);
         }
-        for (int l = 0; l < IK_LANES; l++) {
-            const double pivot = m[k][k][l] == 0.0 ? 1e-300 : m[k][k][l];
+        for (int l = 0; l < IK_FEW; l++) {
+            const double pivot = m[k][3 + k][l] == 0.0 ? 1e-300 : m[k][3 + k][l];
             y[k][l] = sum[l] / pivot;
         }
     }
     for (int d = 0; d < 6; d++) {
         double *RESTRICT out = x[3 + d];
-        for (int l = 0; l < IK_LANES; l++) {
+        for (int l = 0; l < IK_FEW; l++) {
             out[l] = 0.0;
         }
         for (int k = 0; k < 6; k++) {
-            for (int l = 0; l < IK_LANES; l++) {
+            for (int l = 0; l < IK_FEW; l++) {
                 out[l] = order[k][l] == (double)d ? y[k][l] : out[l];
             }
         }
     }
-    ik_outer(&upper, x + 3, x);
-    ik_outer(&lower, x + 3, x + 9);
+    ik_outer(&strips[0][0][0], IK_WIDTH, x + 3, x);
+    ik_outer(&strips[IK_HEIGHT - 1][0][0], -IK_WIDTH, x + 3, x + 9);
 }
 
 /* A basis of the null space by elimination with complete pivoting; its dimension. */
@@ -377,13 +386,27 @@ static void ik_null_vector(double m[IK_SHARED][IK_SHARED], int size, double out[
     }
 }
 
+/* The matrix [A B/r C/r 0; 0 A/r B/r C] at one value, the first three columns of the lower strip last. */
+static NOINLINE void ik_both_strips(
+    const ik_eliminated *e, int slides, double c, double s, double m[IK_UNKNOWNS][IK_UNKNOWNS])
+{
+    ik_strip(e, slides, 0, &c, &s, 1, IK_UNKNOWNS, m[0]);
+    ik_strip(e, slides, 1, &c, &s, 1, IK_UNKNOWNS, m[6]);
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 3; k++) {
+            m[i][9 + k] = 0.0;
+            m[6 + i][9 + k] = m[6 + i][k];
+            m[6 + i][k] = 0.0;
+        }
+    }
+}
+
 /* The null vectors of solutions that share a value of the hidden joint; their number.
    With V a basis of the null space, x = V g has v top g = u bottom g: eigenvectors of a small pencil. */
-static int ik_shared(
+static NOINLINE int ik_shared(
     const ik_eliminated *e, int slides, double c, double s, double out[IK_SHARED][IK_UNKNOWNS])
 {
-    ik_strip upper, lower;
-    double cosines[IK_LANES], sines[IK_LANES], values[IK_SHARED];
+    double values[IK_SHARED];
     double m[IK_UNKNOWNS][IK_UNKNOWNS];
     double basis[IK_SHARED][IK_UNKNOWNS];
     double top[IK_SHARED][9], bottom[IK_SHARED][9];
@@ -391,22 +414,7 @@ static int ik_shared(
     double x[IK_SHARED][IK_SHARED];
     const double weight = slides ? 1.0 : 1.0 / sqrt(3.0);
     const double turn[2] = {0.5403023058681398, 0.8414709848078965};
-    for (int l = 0; l < IK_LANES; l++) {
-        cosines[l] = c;
-        sines[l] = s;
-    }
-    ik_strips(e, slides, cosines, sines, &upper, &lower);
-    for (int i = 0; i < IK_UNKNOWNS; i++) {
-        for (int k = 0; k < IK_UNKNOWNS; k++) {
-            m[i][k] = 0.0;
-        }
-    }
-    for (int i = 0; i < 6; i++) {
-        for (int k = 0; k < 9; k++) {
-            m[i][k] = upper.m[i][k][0];
-            m[6 + i][k < 3 ? 9 + k : k] = lower.m[i][k][0];
-        }
-    }
+    ik_both_strips(e, slides, c, s, m);
     const int count = ik_null_space(m, basis);
     if (count < 2) {
         memcpy(out[0], basis[0], sizeof basis[0]);

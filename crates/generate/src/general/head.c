@@ -10,12 +10,21 @@
 #endif
 
 enum {
-    /* Numbers side by side. */
+    /* Numbers side by side: samples and roots, and fewer where each takes much room on the stack. */
     IK_LANES = 8,
+#ifdef __AVX512F__
+    IK_FEW = 8,
+#else
+    IK_FEW = 4,
+#endif
     /* Functions of a line through which the loop equation is cut. */
     IK_FORMS = 14,
     /* Unknowns of the matrix of the hidden joint. */
     IK_UNKNOWNS = 12,
+    /* Columns of a strip; and rows of both, the lower one upside down: what remains of them when three
+       columns are eliminated is one matrix of 6 x 6, from row 3 and column 3 on. */
+    IK_WIDTH = 9,
+    IK_HEIGHT = 12,
     /* Degree of its determinant, samples and roots. */
     IK_DEGREE = 8,
     IK_SAMPLES = 24,
@@ -30,12 +39,12 @@ enum {
     IK_NEARBY = 2 * IK_ROOTS,
     /* Solutions that can share a root. */
     IK_SHARED = 6,
-    IK_CANDIDATES = IK_NEARBY * (1 + IK_SHARED),
     IK_CHARTS = 12,
+    /* Arcs of a chart that become charts. */
+    IK_ARCS = 8,
     /* How deep charts are taken of parts of charts, with either matrix. */
     IK_DEPTH = 4,
-    IK_WIDE_DEPTH = 2,
-    IK_FOUND = 64
+    IK_WIDE_DEPTH = 2
 };
 
 #define IK_TURN 6.283185307179586
@@ -60,24 +69,19 @@ typedef struct ik_split {
     double left[IK_FORMS][27];
 } ik_split;
 
-/* Six equations that are free of a1 and a2, the largest entry of each 1 and what it was before, and what
-   these two are found from. */
+/* Six equations that are free of a1 and a2, the largest entry of each 1 and what it was before (or their
+   forms in half angles, over (1, c, s) of a3), and what these two are found from. */
 typedef struct ik_eliminated {
     double rows[6][27];
     double sizes[6];
-    ik_rigid links[6];
+    /* Those of the split, and the one with the pose. */
+    const ik_rigid *links[6];
+    ik_rigid closing;
     double first[6][3];
     double weights[2][6];
     int is_open;
     double open[2];
 } ik_eliminated;
-
-/* The equations in half angles of a4 and a5, and mixtures of them: over (1, c, s) of a3, forms of degree 2
-   in either pair. */
-typedef struct ik_wide {
-    double own[6][3][9];
-    double mixed[IK_MONOMIALS][3][9];
-} ik_wide;
 
 /* A part of the circle, magnified: tan((a - centre) / 2) = kappa tan(b / 2). */
 typedef struct ik_chart {
@@ -86,20 +90,8 @@ typedef struct ik_chart {
     int depth;
 } ik_chart;
 
-typedef struct ik_candidate {
-    double hidden[2];
-    double x[IK_UNKNOWNS];
-} ik_candidate;
-
-/* Cosines and sines, or slides and zeros, of the joints. */
-typedef struct ik_found {
-    double values[6][2];
-    double residual;
-} ik_found;
-
 typedef struct ik_work {
     ik_eliminated eliminated;
-    ik_wide wide;
     /* The polynomial, its largest sample 1, and its noise. */
     int degree;
     double re[IK_WIDE_DEGREE + 1];
@@ -111,14 +103,11 @@ typedef struct ik_work {
     double x[IK_WIDE_ROOTS];
     double y[IK_WIDE_ROOTS];
     double radius[IK_WIDE_ROOTS];
-    /* Angles in a chart, and which of them do not fit. */
-    int marks;
-    double angles[48];
-    int marked[48];
-    int candidates;
-    ik_candidate candidate[IK_CANDIDATES];
+    /* The configurations that are found, in the array of the caller: angles or slides of the axes, and
+       whether there are more than it has room for. */
     int count;
-    ik_found found[IK_FOUND];
+    int is_over;
+    @name@_solve_solution *found;
 } ik_work;
 
 INLINE double ik_dot(const double a[3], const double b[3])

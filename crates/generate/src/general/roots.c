@@ -4,7 +4,7 @@
  */
 
 /* The polynomial through the samples, the largest of them 1; 0 if they are of no use. */
-INLINE int ik_fit(
+static NOINLINE int ik_fit(
     ik_work *work, int degree, int count, const double *transform, const double *samples)
 {
     double top = 0.0;

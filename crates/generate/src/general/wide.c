@@ -26,44 +26,34 @@ static void ik_halve(int slides, int stride, double form[9])
     }
 }
 
-/* A fixed number between -1 and 1 without pattern. */
-static double ik_wide_mixture(int i, int j)
+/* The equations in half angles of a4 and a5: forms of degree 2 in either pair, over (1, c, s) of a3. Takes
+   them with their own sizes: one that is all rounding must not be enlarged. */
+static NOINLINE void ik_halve_rows(const ik_split *split, ik_eliminated *e)
 {
-    const double x = (6 * i + j + 1) * 0.7548776662466928;
-    const double y = (x - floor(x)) * 997.0;
-    return 2.0 * (y - floor(y)) - 1.0;
-}
-
-/* Takes the equations with their own sizes: one that is all rounding must not be enlarged. */
-static NOINLINE void ik_fill_wide(const ik_split *split, ik_work *work)
-{
-    ik_wide *wide = &work->wide;
     for (int i = 0; i < 6; i++) {
         for (int part = 0; part < 3; part++) {
-            double *form = wide->own[i][part];
+            double *form = e->rows[i] + 9 * part;
             for (int k = 0; k < 9; k++) {
-                form[k] = work->eliminated.rows[i][9 * part + k] * work->eliminated.sizes[i];
+                form[k] *= e->sizes[i];
             }
             ik_halve(ik_other_slides(split), 1, form);
             ik_halve(ik_multiplied_slides(split), 3, form);
         }
     }
-    for (int i = 0; i < IK_MONOMIALS; i++) {
-        for (int part = 0; part < 3; part++) {
-            double *form = wide->mixed[i][part];
-            for (int k = 0; k < 9; k++) {
-                form[k] = 0.0;
-                for (int j = 0; j < 6; j++) {
-                    form[k] += ik_wide_mixture(i, j) * wide->own[j][part][k];
-                }
-            }
+}
+
+/* The forms at a value of the hidden joint. */
+static void ik_forms_at(const ik_eliminated *e, double c, double s, double forms[6][9])
+{
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 9; k++) {
+            forms[i][k] = e->rows[i][k] + c * e->rows[i][9 + k] + s * e->rows[i][18 + k];
         }
     }
 }
 
-/* A form at a value of the hidden joint, times one of the four multipliers, as a row of the matrix. */
-static void ik_place(
-    double form[3][9], double c, double s, int multiplier, double row[IK_MONOMIALS])
+/* A form times one of the four multipliers, as a row of the matrix. */
+static void ik_place(const double form[9], int multiplier, double row[IK_MONOMIALS])
 {
     for (int k = 0; k < IK_MONOMIALS; k++) {
         row[k] = 0.0;
@@ -71,20 +61,27 @@ static void ik_place(
     for (int i = 0; i < 3; i++) {
         double *to = row + 4 * (i + multiplier / 2) + multiplier % 2;
         for (int k = 0; k < 3; k++) {
-            const int at = 3 * i + k;
-            to[k] = form[0][at] + c * form[1][at] + s * form[2][at];
+            to[k] = form[3 * i + k];
         }
     }
 }
 
 /* The determinant of the mixtures, by elimination with partial pivoting. */
-static double ik_wide_determinant(ik_wide *wide, double c, double s)
+static NOINLINE double ik_wide_determinant(const ik_eliminated *e, double c, double s)
 {
     double m[IK_MONOMIALS][IK_MONOMIALS];
     double *rows[IK_MONOMIALS];
+    double forms[6][9];
     double product = 1.0;
+    ik_forms_at(e, c, s, forms);
     for (int i = 0; i < IK_MONOMIALS; i++) {
-        ik_place(wide->mixed[i], c, s, i / 4, m[i]);
+        double mixed[9] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        for (int j = 0; j < 6; j++) {
+            for (int k = 0; k < 9; k++) {
+                mixed[k] += ik_mixtures[i][j] * forms[j][k];
+            }
+        }
+        ik_place(mixed, i / 4, m[i]);
         rows[i] = m[i];
     }
     for (int k = 0; k < IK_MONOMIALS; k++) {
@@ -165,14 +162,17 @@ static void ik_eliminate_wide(
 }
 
 /* The null space of all equations; pivots below a bound, compared to the first, count as zeros. */
-static void ik_find_null(ik_wide *wide, const double hidden[2], double small, ik_null *out)
+static NOINLINE void ik_find_null(
+    const ik_eliminated *e, const double hidden[2], double small, ik_null *out)
 {
     double m[IK_EQUATIONS][IK_MONOMIALS];
+    double forms[6][9];
     double sizes[IK_MONOMIALS];
     int order[IK_MONOMIALS];
     int rank = 0;
+    ik_forms_at(e, hidden[0], hidden[1], forms);
     for (int i = 0; i < IK_EQUATIONS; i++) {
-        ik_place(wide->own[i / 4], hidden[0], hidden[1], i % 4, m[i]);
+        ik_place(forms[i / 4], i % 4, m[i]);
     }
     ik_eliminate_wide(m, order, sizes);
     out->least = sizes[IK_MONOMIALS - 1] / sizes[0];
@@ -206,7 +206,7 @@ static void ik_find_null(ik_wide *wide, const double hidden[2], double small, ik
 /* Adds a multiple of the matrix of the shift by so many entries, from one power of v to the next: on
    products of powers it is the number v/u. The pair is turned by a fixed angle first, so that no solution
    has u = 0 but by accident. 0 if it is singular. */
-static int ik_shift(const ik_null *null, int stride, double factor, double sum[IK_SHARED][IK_SHARED])
+static NOINLINE int ik_shift(const ik_null *null, int stride, double factor, double sum[IK_SHARED][IK_SHARED])
 {
     const double turn[2] = {0.5403023058681398, 0.8414709848078965};
     const int count = null->count;
@@ -243,7 +243,7 @@ static int ik_shift(const ik_null *null, int stride, double factor, double sum[I
 
 /* The products (u^3 ... v^3) x (u'^3 ... v'^3) among the null vectors that are real up to a tolerance: how
    many. They are the eigenvectors of a mixture of both shifts. */
-static int ik_products(const ik_null *null, double tolerance, double out[IK_SHARED][IK_MONOMIALS])
+static NOINLINE int ik_products(const ik_null *null, double tolerance, double out[IK_SHARED][IK_MONOMIALS])
 {
     const int count = null->count;
     double x[IK_SHARED][IK_SHARED];
@@ -326,16 +326,16 @@ static void ik_narrowed(
     }
 }
 
-/* Adds the products in a null space to the candidates: how many. */
-static int ik_wide_products(
-    const ik_split *split, const double hidden[2], const ik_null *null, double tolerance, ik_work *work)
+/* Offers the products in a null space: how many. */
+static NOINLINE int ik_wide_products(
+    const double hidden[2], const ik_null *null, double tolerance, ik_batch *batch)
 {
     double vectors[IK_SHARED][IK_MONOMIALS];
     const int count = ik_products(null, tolerance, vectors);
     for (int n = 0; n < count; n++) {
-        ik_candidate *own = &work->candidate[work->candidates++];
-        memcpy(own->hidden, hidden, sizeof own->hidden);
-        ik_narrowed(split, vectors[n], own->x);
+        double own[IK_UNKNOWNS];
+        ik_narrowed(batch->split, vectors[n], own);
+        ik_offer(batch, hidden, own);
     }
     return count;
 }
@@ -379,11 +379,12 @@ static void ik_on_circle(const ik_chart *chart, double x, double y, double out[2
     ik_outside(chart, x / modulus, y / modulus, out);
 }
 
-/* Adds the candidates of a group of roots that are one, in their middle, with as many null vectors: then
+/* Offers what belongs to a group of roots that are one, in their middle, with as many null vectors: then
    those are all there are, and those that are not real need no configuration. 0 if the group is no such. */
-static int ik_settle_middle(
-    const ik_split *split, const ik_chart *chart, const int group[IK_WIDE_ROOTS], int own, ik_work *work)
+static NOINLINE int ik_settle_middle(
+    const ik_chart *chart, const int group[IK_WIDE_ROOTS], int own, ik_batch *batch)
 {
+    ik_work *work = batch->work;
     ik_null null;
     double hidden[2];
     double x = 0.0, y = 0.0;
@@ -399,12 +400,12 @@ static int ik_settle_middle(
         return 0;
     }
     ik_on_circle(chart, x, y, hidden);
-    ik_find_null(&work->wide, hidden, 1e-8, &null);
+    ik_find_null(&work->eliminated, hidden, 1e-8, &null);
     if (null.count != size) {
         return 0;
     }
     /* Ten times the root of that bound is the most by which a double eigenvalue can be off. */
-    int rest = ik_wide_products(split, hidden, &null, 1e-3, work);
+    int rest = ik_wide_products(hidden, &null, 1e-3, batch);
     for (int k = 0; k < work->roots; k++) {
         if (group[k] == own && rest-- <= 0) {
             work->radius[k] = -1.0;
@@ -413,11 +414,25 @@ static int ik_settle_middle(
     return 1;
 }
 
-/* Finds the roots that a chart shows, and what may belong to them; 0 if the samples are of no use. */
-static NOINLINE int ik_wide_candidates(const ik_split *split, const ik_chart *chart, ik_work *work)
+/* Offers what belongs to a root on its own. */
+static NOINLINE void ik_settle_root(const ik_chart *chart, int root, ik_batch *batch)
+{
+    ik_work *work = batch->work;
+    ik_null null;
+    double hidden[2];
+    ik_on_circle(chart, work->x[root], work->y[root], hidden);
+    ik_find_null(&work->eliminated, hidden, 1e-3, &null);
+    /* Full rank at every angle in the disc: a root of the mixtures only. */
+    if (null.least > 100.0 * chart->kappa * work->radius[root] && null.least > 1e-9) {
+        work->radius[root] = -1.0;
+    }
+    ik_wide_products(hidden, &null, ik_almost, batch);
+}
+
+/* The polynomial of a chart; 0 if the samples are of no use. */
+static NOINLINE int ik_wide_samples(const ik_chart *chart, ik_work *work)
 {
     double samples[IK_WIDE_SAMPLES];
-    int group[IK_WIDE_ROOTS];
     for (int from = 0; from < IK_WIDE_SAMPLES; from += IK_LANES) {
         double c[IK_LANES], s[IK_LANES], weight[IK_LANES];
         ik_nodes(chart, ik_wide_cosines + from, ik_wide_sines + from, c, s, weight);
@@ -425,32 +440,25 @@ static NOINLINE int ik_wide_candidates(const ik_split *split, const ik_chart *ch
             const double square = weight[l] * weight[l];
             const double fourth = square * square;
             samples[from + l] =
-                ik_wide_determinant(&work->wide, c[l], s[l]) * (fourth * fourth * fourth);
+                ik_wide_determinant(&work->eliminated, c[l], s[l]) * (fourth * fourth * fourth);
         }
     }
-    if (!ik_fit(work, IK_WIDE_DEGREE, IK_WIDE_SAMPLES, &ik_wide_transform[0][0], samples)) {
-        return 0;
-    }
-    ik_find_roots(work);
-    const int groups = ik_grouped(work, chart, group);
+    return ik_fit(work, IK_WIDE_DEGREE, IK_WIDE_SAMPLES, &ik_wide_transform[0][0], samples);
+}
+
+/* Offers the null vectors at the roots. */
+static NOINLINE void ik_wide_candidates(const ik_chart *chart, ik_batch *batch)
+{
+    int group[IK_WIDE_ROOTS];
+    const int groups = ik_grouped(batch->work, chart, group);
     for (int own = 0; own < groups; own++) {
-        if (ik_settle_middle(split, chart, group, own, work)) {
+        if (ik_settle_middle(chart, group, own, batch)) {
             continue;
         }
-        for (int k = 0; k < work->roots; k++) {
-            ik_null null;
-            double hidden[2];
-            if (group[k] != own) {
-                continue;
+        for (int k = 0; k < batch->work->roots; k++) {
+            if (group[k] == own) {
+                ik_settle_root(chart, k, batch);
             }
-            ik_on_circle(chart, work->x[k], work->y[k], hidden);
-            ik_find_null(&work->wide, hidden, 1e-3, &null);
-            /* Full rank at every angle in the disc: a root of the mixtures only. */
-            if (null.least > 100.0 * chart->kappa * work->radius[k] && null.least > 1e-9) {
-                work->radius[k] = -1.0;
-            }
-            ik_wide_products(split, hidden, &null, ik_almost, work);
         }
     }
-    return 1;
 }

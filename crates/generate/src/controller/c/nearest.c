@@ -64,7 +64,7 @@ static void answer_offer(
 }
 
 /* Descends from a configuration to where the hand comes close to the goal, within the limits. */
-static void answer_approach(
+static NOINLINE void answer_approach(
     double goal[4][4], const @name@_ik_limits *limits, double *q@parameters_given@)
 {
     double error[ANSWER_ROWS], motion[ANSWER_JOINTS];
@@ -98,13 +98,24 @@ static void answer_approach(
     }
 }
 @spread@
+@search@
+/* By how much a configuration misses the goal: a shift (m) and a turn (rad). */
+static NOINLINE void answer_missed(
+    double goal[4][4], const double *q@parameters_given@, double *shift, double *turn)
+{
+    double error[ANSWER_ROWS], jacobian[ANSWER_ROWS][ANSWER_JOINTS];
+    (void)answer_error(goal, q@parameters_passed@, 0, error, jacobian);
+    *shift = answer_size * sqrt(error[0] * error[0] + error[1] * error[1] + error[2] * error[2]);
+    *turn = sqrt(error[3] * error[3] + error[4] * error[4] + error[5] * error[5]);
+}
+
 @name@_ik_status @name@_ik_nearest(
     double pose[4][4],
     const double previous[@n@],
     const @name@_ik_limits *limits,@parameters_declaration@
     @name@_ik_choice *choice)
 {
-    double goal[4][4], error[ANSWER_ROWS], jacobian[ANSWER_ROWS][ANSWER_JOINTS];
+    double goal[4][4];
     answer_best best;
     @name@_ik_status status;
     const @name@_ik_limits *own = limits ? limits : &@name@_limits;
@@ -123,7 +134,7 @@ static void answer_approach(
     if (status != @NAME@_IK_SOLVED) {
         return status;
     }
-@search@
+    status = answer_search(pose, goal, previous, own@parameters_passed@, &best);
     if (best.distance[0] < HUGE_VAL) {
         choice->is_found = 1;
         choice->distance = best.distance[0];
@@ -139,10 +150,7 @@ static void answer_approach(
             choice->distance = fmax(choice->distance, by);
         }
     }
-    (void)answer_error(goal, choice->q@parameters_passed@, 0, error, jacobian);
-    choice->missed_shift =
-        answer_size * sqrt(error[0] * error[0] + error[1] * error[1] + error[2] * error[2]);
-    choice->missed_turn = sqrt(error[3] * error[3] + error[4] * error[4] + error[5] * error[5]);
+    answer_missed(goal, choice->q@parameters_passed@, &choice->missed_shift, &choice->missed_turn);
     return status;
 }
 

@@ -260,7 +260,7 @@ static void answer_add(
 @neighbour@
 /* Where the arm hardly moves its hand, and no motion with the hand still is seen, several may cross: what lies farther along
    is on one of them, or is another solution. */
-static void answer_probe(
+static NOINLINE void answer_probe(
     double goal[4][4]@parameters_given@, @name@_ik_result *result, const @name@_ik_solution *from)
 {
     const answer_kernel kernel = answer_still(goal, from->q@parameters_passed@);
@@ -282,45 +282,70 @@ static void answer_probe(
     }
 }
 
-/* Singular poses: what @name@_solve lists is made precise, families are found, and solutions that it does not see
-   there are followed from poses beside it. */
-static @name@_ik_status answer_singular(
-    double goal[4][4],@given_local@@parameters_local@
+/* What lies beside a pose, followed to the goal. */
+static NOINLINE void answer_gather(
+    double goal[4][4], double beside[4][4],@given_local@@parameters_local@
     @name@_ik_result *result)
 {
-    @name@_ik_result listed = *result;
-    int is_family = 0;
-    if (ANSWER_NEIGHBOURS == 0) {
-        return @NAME@_IK_UNDECIDED;
+    @name@_solve_solution other[@NAME@_SOLVE_MAX];
+    int is_all;
+    const int count = answer_list(beside@given_passed@@parameters_passed@, other, &is_all);
+    for (int s = 0; s < count; s++) {
+        @name@_ik_solution found;
+        memcpy(found.q, other[s].q, sizeof found.q);
+        memset(found.motion, 0, sizeof found.motion);
+        found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 20);
+        found.multiplicity = 1;
+        found.branch = -1;
+        found.dimension = 0;
+        if (found.residual <= 1e-10) {
+            answer_add(goal@parameters_passed@, result, &found);
+        }
     }
+}
+
+/* What is listed of a singular pose, made precise, takes its own place again; the first of it as it was. */
+static NOINLINE void answer_sharpen(
+    double goal[4][4]@parameters_given@, @name@_ik_result *result, double listed[][ANSWER_JOINTS])
+{
+    const int count = result->count;
     result->count = 0;
-    for (int k = 0; k < listed.count; k++) {
-        @name@_ik_solution found = listed.solutions[k];
+    for (int k = 0; k < count; k++) {
+        @name@_ik_solution found = result->solutions[k];
+        double q[ANSWER_JOINTS];
+        memcpy(q, found.q, sizeof q);
+        if (k < ANSWER_NEIGHBOURS) {
+            memcpy(listed[k], q, sizeof q);
+        }
         if (found.residual > 1e-12) {
             const double residual = answer_correct(goal, found.q@parameters_passed@, 1, 8);
-            if (residual <= found.residual && answer_apart(found.q, listed.solutions[k].q) <= 0.01) {
+            if (residual <= found.residual && answer_apart(found.q, q) <= 0.01) {
                 found.residual = residual;
             } else {
-                memcpy(found.q, listed.solutions[k].q, sizeof found.q);
+                memcpy(found.q, q, sizeof q);
             }
         }
         answer_add(goal@parameters_passed@, result, &found);
     }
+}
+
+/* Singular poses: what @name@_solve lists is made precise, families are found, and solutions that it does not see
+   there are followed from poses beside it. */
+static NOINLINE @name@_ik_status answer_singular(
+    double goal[4][4],@given_local@@parameters_local@
+    @name@_ik_result *result)
+{
+    double listed[ANSWER_NEIGHBOURS + 1][ANSWER_JOINTS];
+    const int count = result->count;
+    int is_family = 0;
+    if (ANSWER_NEIGHBOURS == 0) {
+        return @NAME@_IK_UNDECIDED;
+    }
+    answer_sharpen(goal@parameters_passed@, result, listed);
     for (int k = 0; k < ANSWER_NEIGHBOURS; k++) {
         double beside[4][4];
-        if (!answer_neighbour(goal@parameters_passed@, &listed, k, beside)) {
-            continue;
-        }
-        @name@_ik_result other;
-        (void)answer_solve(beside@given_passed@@parameters_passed@, &other);
-        for (int s = 0; s < other.count; s++) {
-            @name@_ik_solution found = other.solutions[s];
-            found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 20);
-            found.branch = -1;
-            found.multiplicity = 1;
-            if (found.residual <= 1e-12) {
-                answer_add(goal@parameters_passed@, result, &found);
-            }
+        if (answer_neighbour(goal@parameters_passed@, listed, count, k, beside)) {
+            answer_gather(goal, beside@given_passed@@parameters_passed@, result);
         }
     }
     for (int k = 0; k < result->count; k++) {

@@ -1,13 +1,25 @@
 
-/* What @name@_solve lists; 1 if that is all. */
-static int answer_solve(
+/* What @name@_solve lists: how many, and whether that is all. */
+static int answer_list(
+    double goal[4][4],@given_local@@parameters_local@
+    @name@_solve_solution found[@NAME@_SOLVE_MAX],
+    int *is_all)
+{
+    @name@_solve_certificate certificate;
+    double values[@values@];@parameters_unread@
+@flatten@    const int count = @name@_solve(values@solve_parameters@, found, &certificate);
+    *is_all = certificate == @NAME@_SOLVE_COMPLETE;
+    return count < @NAME@_SOLVE_MAX ? count : @NAME@_SOLVE_MAX;
+}
+
+/* The same as a result; 1 if that is all. */
+static NOINLINE int answer_solve(
     double goal[4][4],@given_local@@parameters_local@ @name@_ik_result *result)
 {
     @name@_solve_solution found[@NAME@_SOLVE_MAX];
-    @name@_solve_certificate certificate;
-    double values[@values@];@parameters_unread@
-@flatten@    result->count = @name@_solve(values@solve_parameters@, found, &certificate);
-    for (int s = 0; s < @NAME@_SOLVE_MAX && s < result->count; s++) {
+    int is_all;
+    result->count = answer_list(goal@given_passed@@parameters_passed@, found, &is_all);
+    for (int s = 0; s < result->count; s++) {
         @name@_ik_solution *own = &result->solutions[s];
         memcpy(own->q, found[s].q, sizeof own->q);
         memset(own->motion, 0, sizeof own->motion);
@@ -16,5 +28,5 @@ static int answer_solve(
         own->branch = @found_branch@;
         own->dimension = 0;
     }
-    return certificate == @NAME@_SOLVE_COMPLETE;
+    return is_all;
 }
