@@ -252,7 +252,7 @@ impl Generated {
     }
 }
 
-/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, Rust and behind
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, JavaScript, Rust and behind
 /// IKFast's interface, and left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
 /// them. IKFast's interface has `fk` and `ik`, both of them, with the values of parameters in them.
 ///

@@ -142,7 +142,7 @@ fn refusals() {
     refused(
         &["generate", "oblique-6r", "--language", "python", "-o", "x", "--functions", "ik"],
         4,
-        "elimination is generated in C and Rust",
+        "elimination is generated in C, JavaScript and Rust",
     );
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
     refused(

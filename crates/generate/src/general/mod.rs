@@ -1,8 +1,10 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust and C.
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C and JavaScript.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C and JavaScript have the same algorithm in `general/*.c`
+//! and `general/javascript`.
 
 mod c;
+mod javascript;
 mod rust;
 
 use super::PackageOptions;
@@ -32,7 +34,7 @@ pub(super) struct General {
     language: Language,
     axes: SixAxes,
     plan: Plan,
-    /// What C prints.
+    /// What C and JavaScript print.
     tables: Option<Tables>,
     is_angle: [bool; 6],
     /// What lengths are compared with, metres.
@@ -79,15 +81,17 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast if tables.is_some() => {}
-            Language::C | Language::IkFast => {
+            Language::C | Language::IkFast | Language::JavaScript if tables.is_some() => {}
+            Language::C | Language::IkFast | Language::JavaScript => {
                 return Err(Some(
-                    "elimination in C serves arms with at most one prismatic joint; --language rust serves this one".into(),
+                    "elimination in this language serves arms with at most one prismatic joint; --language rust serves this one"
+                        .into(),
                 ));
             }
-            Language::Python | Language::Matlab | Language::JavaScript | Language::Cuda => {
+            Language::Python | Language::Matlab | Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C and Rust (--language c, --language rust; --language ikfast is C++)".into(),
+                    "elimination is generated in C, JavaScript and Rust (--language c, javascript or rust; --language ikfast is C++)"
+                        .into(),
                 ));
             }
         }
@@ -138,6 +142,7 @@ impl General {
         match (&self.tables, self.language) {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
+            (Some(tables), Language::JavaScript) => javascript::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }

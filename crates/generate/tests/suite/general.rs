@@ -244,11 +244,13 @@ fn rust_finds_all_solutions() {
 #[test]
 fn what_is_not_generated_is_said() {
     let functions = [Wanted::Pose, Wanted::Inverse];
-    for language in [Language::Python, Language::Matlab, Language::JavaScript, Language::Cuda] {
+    for language in [Language::Python, Language::Matlab, Language::Cuda] {
         let found = generated(&catalogued("oblique-6r"), language, &functions);
         let why = found.refused.expect("a reason");
-        assert!(found.inverse.is_none() && why.contains("in C and Rust"), "{why}");
+        assert!(found.inverse.is_none() && why.contains("in C, JavaScript and Rust"), "{why}");
     }
-    let why = generated(&read(TWO_SLIDES), Language::C, &functions).refused.expect("a reason");
-    assert!(why.contains("at most one prismatic joint"), "{why}");
+    for language in [Language::C, Language::JavaScript] {
+        let why = generated(&read(TWO_SLIDES), language, &functions).refused.expect("a reason");
+        assert!(why.contains("at most one prismatic joint"), "{why}");
+    }
 }
