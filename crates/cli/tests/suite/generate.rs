@@ -142,7 +142,7 @@ fn refusals() {
     refused(
         &["generate", "oblique-6r", "--language", "cuda", "-o", "x", "--functions", "ik"],
         4,
-        "elimination is generated in C, Rust, Python and MATLAB",
+        "elimination is generated in C, Rust, Python, MATLAB and JavaScript",
     );
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
     refused(

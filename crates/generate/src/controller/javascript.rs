@@ -1,6 +1,7 @@
 //! The functions in JavaScript: behind the others of the module.
 
 use super::{Controller, SAMPLES};
+use crate::Solver;
 use crate::tables::wrapped;
 use denavit::inverse::Goal;
 use denavit_emit::Attachment;
@@ -66,6 +67,15 @@ impl Controller<'_> {
         let or_twist =
             if self.is_full { ", or the goal\n * turned and shifted a little if there is none" } else { "" };
         let (configurations, counts) = self.tested();
+        let (most, result, branch) = match self.solver {
+            Solver::Closed(_) => (
+                "solveBranches.length",
+                None,
+                "the number of its branch, whose label is in `solveBranches`, if it\n *   is one's",
+            ),
+            Solver::General(_) => ("SOLVE_MAX", Some("q"), "by elimination there are no branches: null"),
+        };
+        let template = result.map_or(template.to_string(), |q| template.replace("@solve_result@: q", q));
         let test_given: Vec<String> = self.given.iter().map(|j| format!("q[{j}]")).collect();
         let (default, public, limits) = if self.has_defaults {
             (", parameters = DEFAULTS", "[parameters]", "{IkLimits} [limits]")
@@ -79,6 +89,8 @@ impl Controller<'_> {
         let nearest =
             nearest.replace("UNDECIDED", "undecided").replace("SOLVED then says", "`solved` then says");
         template
+            .replace("@most@", most)
+            .replace("@branch@", branch)
             .replace("@search@", search.trim_end())
             .replace("@spread@", if has_given { include_str!("javascript/spread.js.txt") } else { "" })
             .replace("@twist@", twist.trim_end())

@@ -370,12 +370,10 @@ fn rust_finds_all_solutions() {
 #[test]
 fn what_is_not_generated_is_said() {
     let functions = [Wanted::Pose, Wanted::Inverse];
-    for language in [Language::JavaScript, Language::Cuda] {
-        let found = generated(&catalogued("oblique-6r"), language, &functions);
-        let why = found.refused.expect("a reason");
-        assert!(found.inverse.is_none() && why.contains("elimination is generated in C"), "{why}");
-    }
-    for language in [Language::C, Language::Python, Language::Matlab] {
+    let found = generated(&catalogued("oblique-6r"), Language::Cuda, &functions);
+    let why = found.refused.expect("a reason");
+    assert!(found.inverse.is_none() && why.contains("elimination is generated in C"), "{why}");
+    for language in [Language::C, Language::Python, Language::Matlab, Language::JavaScript] {
         let why = generated(&read(TWO_SLIDES), language, &functions).refused.expect("a reason");
         assert!(why.contains("at most one prismatic joint"), "{why}");
     }

@@ -4,6 +4,7 @@ mod attack;
 mod certificate;
 mod conformance;
 mod general;
+mod general_javascript;
 mod ikfast;
 mod library;
 mod ros2;

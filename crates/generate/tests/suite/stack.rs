@@ -10,10 +10,8 @@ use std::path::Path;
 use std::process::Command;
 
 /// The compilers, each with what its processor is.
-const COMPILERS: [&[&str]; 2] = [
-    &["gcc", "-O2"],
-    &["arm-none-eabi-gcc", "-O2", "-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mfloat-abi=hard"],
-];
+const COMPILERS: [&[&str]; 2] =
+    [&["gcc", "-O2"], &["arm-none-eabi-gcc", "-O2", "-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mfloat-abi=hard"]];
 
 /// Functions with their frames (bytes; none where the compiler does not know one), and what they call.
 #[derive(Default)]
