@@ -80,8 +80,10 @@ impl Controller<'_> {
         } else {
             self.read().to_string()
         };
-        let solve_goal = if self.passes_rounded() { "if off <= 1e-5 { pose } else { &goal }" } else { "&goal" };
-        let not_numbers = "\n    if !see(&[0.0; N], parameters).iter().all(|x| x.is_finite()) {\n        return ";
+        let solve_goal =
+            if self.passes_rounded() { "if off <= 1e-5 { pose } else { &goal }" } else { "&goal" };
+        let not_numbers =
+            "\n    if !see(&[0.0; N], parameters).iter().all(|x| x.is_finite()) {\n        return ";
         let given_check = "\n    if !given.iter().all(|x| x.is_finite()) {\n        return IkResult::new(IkStatus::NotFinite, off);\n    }";
         let max = if is_closed { "SOLVE_MAX".to_string() } else { MAX.to_string() };
         let branch = if is_closed {
