@@ -207,6 +207,11 @@ mod tests {
                 Some(Joint),
             ),
             ("$l_{c1}$ Abstand des Schwerpunkts vom Gelenk 1", Some(Joint), None),
+            (
+                "the distance between joint 1 and the mass centre of link 1 is $l_{c1}$, between the tip and that of link 2 $l_{c2}$",
+                Some(Joint),
+                Some(End),
+            ),
             ("the centre of mass is in the middle", None, None),
         ] {
             let found = described(&text.to_lowercase());

@@ -47,7 +47,7 @@ pub(super) struct Described {
 /// Arms have no more joints here than an index has digits.
 const JOINTS: usize = 9;
 
-pub(super) const CENTRES: [&str; 15] = [
+pub(super) const CENTRES: [&str; 18] = [
     "centre of mass",
     "center of mass",
     "centres of mass",
@@ -59,6 +59,9 @@ pub(super) const CENTRES: [&str; 15] = [
     "mass centre",
     "schwerpunkt",
     "centre de masse",
+    "centres de masse",
+    "centros de mas",
+    "centri di massa",
     "centre de gravité",
     "centro de mas",
     "centro di massa",
@@ -135,7 +138,7 @@ fn middle(lower: &str) -> Option<At> {
 
 /// Whether the links are points or rods, and where they are.
 fn shape(lower: &str, has_inertia: bool) -> (Option<Shape>, Option<At>) {
-    const POINTS: [&str; 24] = [
+    const POINTS: [&str; 26] = [
         "point mass",
         "point-mass",
         "pointmass",
@@ -152,6 +155,8 @@ fn shape(lower: &str, has_inertia: bool) -> (Option<Shape>, Option<At>) {
         "massa pontual",
         "lumped mass",
         "concentrated mass",
+        "is concentrated",
+        "are concentrated",
         "mass is concentrated",
         "masses are concentrated",
         "mass concentrated",
@@ -237,8 +242,11 @@ pub(super) fn number_behind(text: &str) -> Option<Number> {
     }
 }
 
+/// Names with the links that their numbers say, none where they are of all.
+pub(super) type Links = Vec<(String, Option<usize>)>;
+
 /// The names of centres or inertias in a piece of text, with their links: none of `l_{ci}`.
-fn names_in(piece: &str, is_wanted: &dyn Fn(Role, &str) -> bool) -> Vec<(String, Option<usize>)> {
+fn names_in(piece: &str, is_wanted: &dyn Fn(Role, &str) -> bool) -> Links {
     let mut found = vec![];
     for word in words(piece) {
         let general = word.strip_suffix(['i', 'j', 'k']).filter(|w| !w.is_empty());
@@ -268,10 +276,7 @@ fn is_inertia(of: Role, _: &str) -> bool {
 }
 
 /// A sentence in pieces, each with the names that stand at its beginning: a sentence without names is one piece.
-pub(super) fn pieces<'s>(
-    sentence: &'s str,
-    is_wanted: &dyn Fn(Role, &str) -> bool,
-) -> Vec<(Vec<(String, Option<usize>)>, &'s str)> {
+pub(super) fn pieces<'s>(sentence: &'s str, is_wanted: &dyn Fn(Role, &str) -> bool) -> Vec<(Links, &'s str)> {
     // Names stand between signs of formulas, or are words.
     let is_in = |c: char| c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\');
     let mut starts: Vec<(usize, usize)> = vec![];
@@ -283,16 +288,20 @@ pub(super) fn pieces<'s>(
         }
         let length: usize = sentence[at..].chars().take_while(|c| is_in(*c)).map(char::len_utf8).sum();
         let word = &sentence[at..at + length];
-        if word.contains(['_', '{']) || word.ends_with(|c: char| c.is_ascii_digit()) {
-            if !names_in(word, is_wanted).is_empty() {
-                starts.push((at, at + length));
-            }
+        let is_name = word.contains(['_', '{']) || word.ends_with(|c: char| c.is_ascii_digit());
+        if is_name && !names_in(word, is_wanted).is_empty() {
+            starts.push((at, at + length));
         }
         at += length;
     }
     let Some(&(first, _)) = starts.first() else { return vec![(vec![], sentence)] };
+    // `the distance from joint 1 to the centre is l_{c1}`: what stands before a name is its own.
+    let before = sentence[..first].trim_end_matches([' ', '$', '`', '*']);
+    let last = before.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+    let is_behind =
+        matches!(last, "is" | "ist" | "est" | "es" | "è" | "é" | "be" | "by" | "called" | "beträgt" | "vaut");
     // What stands before the first name belongs to it where nothing stands behind.
-    let mut found: Vec<(Vec<(String, Option<usize>)>, &str)> = vec![];
+    let mut found: Vec<(Links, &str)> = vec![];
     let mut k = 0;
     while k < starts.len() {
         let mut names = names_in(&sentence[starts[k].0..starts[k].1], is_wanted);
@@ -310,11 +319,16 @@ pub(super) fn pieces<'s>(
             names.extend(names_in(&sentence[starts[last].0..starts[last].1], is_wanted));
         }
         let end = starts.get(last + 1).map_or(sentence.len(), |s| s.0);
-        found.push((names, &sentence[starts[last].1..end]));
+        let piece = match is_behind {
+            true => &sentence[k.checked_sub(1).map_or(0, |before| starts[before].1)..starts[k].0],
+            false => &sentence[starts[last].1..end],
+        };
+        found.push((names, piece));
         k = last + 1;
     }
     // `at the distance l_{c1} from the joint`, `the distance from the joint to the centre is l_{c1}`
     if let [(_, piece)] = &mut found[..]
+        && !is_behind
         && !FROM.iter().any(|w| piece.contains(w))
     {
         *piece = &sentence[..first];
@@ -488,6 +502,10 @@ mod tests {
         assert!(of("$l_{c1}$ is that of link 1, $l_{c2}$ that of link 2").is_empty());
         let swapped = of("$l_{c1}$ is the centre of mass of link 2, $l_{c2}$ that of link 1");
         assert_eq!(swapped, [("lc1".to_string(), 1), ("lc2".to_string(), 0)].into());
+        assert!(
+            of("between joint 1 and the mass centre of link 1 is $l_{c1}$, the distance between joint 2 and the mass centre of link 2 is $l_{c2}$")
+                .is_empty()
+        );
         assert!(of("$l_{c2}$ from joint 1 to the centre of the arm").is_empty());
     }
 }

@@ -482,9 +482,7 @@ fn quantity(text: &str, order: usize, kind: JointKind) -> Option<(f64, bool)> {
         let by = rest.strip_prefix('/').and_then(|r| number(skip(r))).map_or(1.0, |d| d.0);
         return Some((minus * size * std::f64::consts::PI / by, true));
     }
-    if number(rest).is_none() {
-        return None;
-    }
+    number(rest)?;
     if kind == JointKind::Prismatic {
         let scale =
             [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)].into_iter().find(|(unit, _)| behind.starts_with(unit));

@@ -135,7 +135,7 @@ fn is_level(lower: &str) -> bool {
 /// The point about which a sentence says that inertias are.
 fn inertia(lower: &str) -> Option<Point> {
     const WORDS: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
-    const CENTRES: [&str; 14] = [
+    const CENTRES: [&str; 17] = [
         "centre of mass",
         "center of mass",
         "centres of mass",
@@ -146,6 +146,9 @@ fn inertia(lower: &str) -> Option<Point> {
         "schwerpunkt",
         "massenmittelpunkt",
         "centre de masse",
+        "centres de masse",
+        "centros de mas",
+        "centri di massa",
         "centre de gravité",
         "centro de mas",
         "centro di massa",
