@@ -569,6 +569,7 @@ fn the_nearest_is_within_the_limits() {
         fs::write(folder.join("limits.c"), include_str!("limits.c")).expect("it can be written");
         let built = Command::new("cc")
             .args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "limits.c", "-lm", "-o", "limits"])
+            .args(if straight < 0 { &["-DHAS_GIVEN"][..] } else { &[] })
             .current_dir(&folder)
             .output()
             .expect("there is a compiler");

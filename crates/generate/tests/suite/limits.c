@@ -42,11 +42,11 @@ int main(int count, char **words)
             wrong += choice.q[j] < limits.lower[j] || choice.q[j] > limits.upper[j];
         }
         wrong += choice.is_found && !(choice.missed_shift <= 1e-7 && choice.missed_turn <= 1e-7);
-        if (straight >= 0) {
-            int there = 0;
-            (void)arm_ik_all_within_limits(pose, &limits, 0, NULL, &there);
-            none += there == 0;
-        }
+#ifndef HAS_GIVEN
+        int there = 0;
+        (void)arm_ik_all_within_limits(pose, &limits, 0, NULL, &there);
+        none += there == 0;
+#endif
     }
     /* What is far, or no limit. */
     for (int k = 0; k < 4; k++) {
