@@ -331,9 +331,12 @@ pub(super) fn names(
             && own.lookup(word).is_none()
             && rates.into_iter().any(|w| w == word || word == "d" && w.starts_with('d'))
     };
-    // Beside Khalil's M_1 a name m_1 is another.
+    // Beside Khalil's M_1, or more of them than there are bodies, a name m_1 is another.
     let has_ten = mentioned.iter().any(|w| matches!(role_of(w, n, letters), Some(Role::Ten(..))));
-    let is_other = |word: &str| has_ten && word.starts_with('m');
+    let number = |w: &str, letter: char| w.strip_prefix(letter)?.parse::<usize>().ok();
+    let is_mass = |w: &String| number(w, 'M').is_some() || number(w, 'm').is_some_and(|k| k > n + 1);
+    let has_others = has_ten && mentioned.iter().any(is_mass);
+    let is_other = |word: &str| has_others && word.starts_with('m');
     for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w)) {
         let Some(role) = role_of(word, n, letters) else { continue };
         if let Role::Gear(of) = role

@@ -20,7 +20,8 @@ pub fn unknown(file: &str, why: &Unknown) -> Failure {
         Unknown::NoMasses => {
             "\n  = hint: a URDF or an MJCF does; a tree of rows has them as mass, com and inertia"
         }
-        Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) | Unknown::NegativeMass(_) => "",
+        Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) => "",
+        Unknown::NegativeMass(_) => "; no motion follows from it",
     };
     Failure::Input(format!("error: {file}: {why}{hint}"))
 }
