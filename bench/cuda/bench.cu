@@ -97,16 +97,17 @@ template <class R> std::vector<R> configurations(size_t angles, size_t inputs)
 double bandwidth;
 bool is_first = true;
 
-void figure(const char *arm, const char *name, const char *real, double time, double bytes, double off, double own)
+void figure(const char *arm, const char *name, const char *real, double time, double bytes, double off, double own,
+            double apart)
 {
-    printf("%s{\"arm\": \"%s\", \"name\": \"%s\", \"real\": \"%s\", \"ns\": %.4f, \"bytes\": %.0f, \"share\": %.4f, \"off\": %.3g, \"c\": %.3g}",
+    printf("%s{\"arm\": \"%s\", \"name\": \"%s\", \"real\": \"%s\", \"ns\": %.4f, \"bytes\": %.0f, \"share\": %.4f, \"off\": %.3g, \"c\": %.3g, \"apart\": %.3g}",
            is_first ? "" : ", ", arm, name, real, time / (double)COUNT * 1e9, bytes,
-           bytes * (double)COUNT / time / bandwidth, off, own);
+           bytes * (double)COUNT / time / bandwidth, off, own, apart);
     is_first = false;
 }
 
-// Runs a kernel, C, and C in long double. `used` of the inputs are read; the differences of the kernel and of C from the last
-// are the largest of all results, in units in the last place of the largest that any of them becomes.
+// Runs a kernel, C, and C in long double. `used` of the inputs are read; the differences of the kernel and of C from the last,
+// and from each other, are the largest of all results, in units in the last place of the largest that any of them becomes.
 template <class R, class Kernel, class C, class Truth>
 void function(const char *arm, const char *name, size_t angles, size_t inputs, size_t used, size_t results, Kernel kernel, C c,
               Truth truth)
@@ -118,7 +119,7 @@ void function(const char *arm, const char *name, size_t angles, size_t inputs, s
     const double time = seconds([&] { kernel<<<blocks, THREADS>>>(COUNT, in.place, out.place); });
     std::vector<R> values(results * COUNT);
     must(cudaMemcpy(values.data(), out.place, values.size() * sizeof(R), cudaMemcpyDeviceToHost));
-    double apart = 0.0, of_c = 0.0, size = 0.0;
+    double off = 0.0, of_c = 0.0, apart = 0.0, size = 0.0;
     std::vector<R> own(inputs), in_c(results);
     std::vector<long double> exact(inputs), right(results);
     for (size_t i = 0; i < HELD; i++) {
@@ -129,14 +130,15 @@ void function(const char *arm, const char *name, size_t angles, size_t inputs, s
         truth(exact.data(), right.data());
         for (size_t k = 0; k < results; k++) {
             const double difference = (double)std::fabs((long double)values[k * COUNT + i] - right[k]);
-            apart = difference <= apart ? apart : difference; // also if it is no number
+            off = difference <= off ? off : difference; // also if it is no number
+            apart = std::max(apart, std::fabs((double)values[k * COUNT + i] - (double)in_c[k]));
             of_c = std::max(of_c, (double)std::fabs((long double)in_c[k] - right[k]));
             size = std::max(size, std::fabs((double)right[k]));
         }
     }
     const double unit = size * std::numeric_limits<R>::epsilon();
-    figure(arm, name, sizeof(R) == 8 ? "double" : "float", time, (double)((used + results) * sizeof(R)), apart / unit,
-           of_c / unit);
+    figure(arm, name, sizeof(R) == 8 ? "double" : "float", time, (double)((used + results) * sizeof(R)), off / unit,
+           of_c / unit, apart / unit);
 }
 
 // The closed form, of the poses of random configurations: the difference is the share of poses whose number of solutions,
@@ -190,7 +192,7 @@ void inverse()
         others += !is_same;
     }
     const double written = 2.0 + 10.0 * (double)solutions / (double)COUNT;
-    figure("UR5", "ik", "double", time, 8.0 * (12.0 + written), 1e6 * (double)others / (double)HELD, 0.0);
+    figure("UR5", "ik", "double", time, 8.0 * (12.0 + written), 0.0, 0.0, 1e6 * (double)others / (double)HELD);
 }
 
 } // namespace

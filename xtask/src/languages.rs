@@ -25,6 +25,8 @@ const ROBOTS: &[&str] = &[
     "crates/generate/tests/robots/mixed.toml",
     "crates/generate/tests/robots/names.toml",
 ];
+/// Of these those without a closed form back.
+const ELIMINATED: &[&str] = &["oblique-6r"];
 /// Of these also with the values of parameters in the code.
 const FIXED: &[&str] = &["scara", "franka-panda"];
 /// Of these the dynamic functions: of one with masses and friction, and of one that takes the numbers of its links, with loads; in Rust
@@ -40,6 +42,8 @@ const KINEMATIC: &str = "fk,frames,jacobian,ik";
 /// What is generated of those that move.
 const DYNAMIC: &str = "fk,torque,inertia,bias,gravity,acceleration,energy,torque_derivatives,acceleration_derivatives,\
      torque_with_derivatives,acceleration_with_derivatives";
+/// Robots that something was found with.
+const CASES: &str = "crates/robot/tests/cases";
 /// What every C file is compiled with, beside what its Makefile says.
 const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic";
 const PYTHON_PACKAGES: &[&str] = &["numpy", "nvidia-cuda-nvrtc-cu12"];
@@ -82,6 +86,62 @@ pub fn run() -> Result<()> {
         MOVING.len()
     );
     Ok(())
+}
+
+/// Every robot of the catalogue, and every file of the library's tests that is one, in C and in Rust: built and tested by the commands
+/// that `generate` prints, or refused with a reason.
+///
+/// # Errors
+/// What fails, all of it.
+pub fn every() -> Result<()> {
+    install()?;
+    let tools = Tools { python: PathBuf::new(), program: program()?, folder: path("target/generated-every") };
+    if tools.folder.exists() {
+        fs::remove_dir_all(&tools.folder)?;
+    }
+    let listed = command(&tools.program).args(["robots", "--json"]).output()?;
+    let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).context("a list of robots")?;
+    let names = listed["robots"].as_array().context("robots")?.iter().filter_map(|r| r["name"].as_str());
+    let mut robots: Vec<String> = names.map(str::to_string).collect();
+    for file in fs::read_dir(path(CASES))? {
+        let file = file?.path();
+        if file.extension().is_some_and(|e| e == "toml") {
+            robots.push(file.display().to_string());
+        }
+    }
+    robots.sort();
+    let (mut failed, mut refused) = (vec![], vec![]);
+    let mut members = vec![];
+    for robot in &robots {
+        let stem = stem(robot)?.to_string();
+        for language in ["c", "rust"] {
+            let target = tools.folder.join(language).join(&stem);
+            let mut generate = command(&tools.program);
+            generate.args(["generate", robot, "--language", language, "--functions", KINEMATIC, "--output"]);
+            let output = generate.arg(&target).stdin(Stdio::null()).output()?;
+            if !output.status.success() {
+                let said = String::from_utf8_lossy(&output.stderr);
+                let why = said.lines().last().unwrap_or("no reason").to_string();
+                let list = if output.status.code() == Some(4) { &mut refused } else { &mut failed };
+                list.push(format!("{stem} in {language}: {why}"));
+            } else if language == "rust" {
+                members.push(stem.clone());
+            } else if let Err(why) = quietly(Command::new("make").arg("test").current_dir(&target)) {
+                failed.push(format!("{stem} in C: {why:#}"));
+            }
+        }
+    }
+    let folder = tools.folder.join("rust");
+    fs::write(folder.join("Cargo.toml"), format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n"))?;
+    let mut cargo = crate::cargo();
+    cargo.args(["test", "--workspace", "--no-fail-fast", "--quiet", "--offline"]).current_dir(&folder);
+    cargo.env("CARGO_TARGET_DIR", tools.folder.join("rust-target"));
+    if let Err(why) = quietly(&mut cargo) {
+        failed.push(format!("in Rust: {why:#}"));
+    }
+    refused.iter().for_each(|why| println!("refused: {why}"));
+    println!("{} robots in C and {} in Rust, {} refused", robots.len(), members.len(), refused.len());
+    if failed.is_empty() { Ok(()) } else { bail!("{}", failed.join("\n")) }
 }
 
 /// What generates and interprets, and where.
@@ -134,8 +194,12 @@ impl Tools {
         )?;
         let target = generate("javascript", &[])?;
         quietly(Command::new("node").arg("--test").current_dir(&target))?;
+        // Elimination is not generated in CUDA.
+        let functions =
+            if ELIMINATED.contains(&robot) { functions.trim_end_matches(",ik") } else { functions };
         for extra in [&[][..], &["--float"]] {
-            let target = generate("cuda", extra)?;
+            let target = self.folder.join(format!("{stem}-cuda{}", extra.concat()));
+            let target = self.generate(robot, functions, "cuda", &[more, extra].concat(), target)?;
             quietly(Command::new(&self.python).arg(test_file(&target, ".py")?).current_dir(&target))?;
         }
         if FIXED.contains(&robot) {
@@ -237,7 +301,7 @@ pub fn quietly(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Debian packages for the programs that are missing.
+/// Debian packages for the programs, and headers, that are missing.
 pub fn install() -> Result<()> {
     const PROGRAMS: &[(&str, &str)] = &[
         ("gcc", "gcc"),
@@ -247,8 +311,12 @@ pub fn install() -> Result<()> {
         ("octave", "octave"),
         ("node", "nodejs"),
         ("python3", "python3"),
+        ("/usr/include/eigen3", "libeigen3-dev"),
     ];
     let is_missing = |program: &str| {
+        if program.starts_with('/') {
+            return !Path::new(program).exists();
+        }
         let started =
             Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
         !started.is_ok_and(|s| s.success())

@@ -8,6 +8,7 @@ mod descriptions;
 mod documents;
 mod dynamics_counts;
 mod errata;
+mod firmware;
 mod folders;
 mod languages;
 mod python;
@@ -48,7 +49,7 @@ cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [a
                                  inverse kinematics without a closed form; CPU time from start to a first answer, of
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; the package beside other
                                  packages; kernels on a GPU where nvcc is; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
-cargo xtask languages            builds and runs generated source code in every language
+cargo xtask languages [--every]  builds and runs generated source code in every language; --every: in C and Rust of all robots
 cargo xtask c [--write]          the C library: its header compared, its examples in C, C++ and Go and its tests built and run;
                                  --write renews the header
 cargo xtask python               the Python package: built beside the program, its types checked, its tests run
@@ -57,6 +58,7 @@ cargo xtask site                 the documentation as a site for any static host
 cargo xtask release [crates | sbom | site | program | library | wheel]...
                                  everything that would be published, in target/release-files with checksums; nothing is
                                  uploaded; the page has to be built (`cargo xtask web`)
+cargo xtask firmware             generated C on a Cortex-M7 in qemu: instructions, stack, code; what cppcheck and clang-tidy remark
 cargo xtask counts [--check]     writes docs/operation-counts.md; --check fails if it is not up to date,
                                  or if SymPy needs fewer operations for some robot
 cargo xtask counts dynamics [--check]
@@ -104,8 +106,10 @@ fn dispatch(arguments: &[String]) -> Result<()> {
         ["bench", "--write", ref parts @ ..] => bench::run(parts, true),
         ["bench", ref parts @ ..] => bench::run(parts, false),
         ["languages"] => languages::run(),
+        ["languages", "--every"] => languages::every(),
         ["c"] => c::test(),
         ["c", "--write"] => c::write(),
+        ["firmware"] => firmware::run(),
         ["python"] => python::test(),
         ["wheel"] => python::wheel(),
         ["site"] => site::build().map(drop),

@@ -53,6 +53,8 @@ const QUICK: &[Step] = &[
 const FULL: &[Step] = &[
     step("limits of size", &["web"]),
     step("page in full", &["page", "--timed"]),
+    step("every robot", &["languages", "--every"]),
+    step("firmware", &["firmware"]),
     step("certificates", &["certificates"]),
     step("counts of dynamics", &["counts", "dynamics", "--check"]),
     step("descriptions", &["descriptions"]),
@@ -117,6 +119,7 @@ fn run_cargo(arguments: &[&str]) -> Result<()> {
 
 /// All tests, but what other steps run.
 fn tests() -> Result<()> {
+    crate::languages::install()?;
     match nextest() {
         Some(mut runner) => {
             runner.args(["run", "--workspace", "--locked", "-E", &format!("not test({REPORTS})")]);

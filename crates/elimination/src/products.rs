@@ -38,18 +38,19 @@ impl NullSpace {
         }
     }
 
-    /// The products `(u³ … v³) ⊗ (u'³ … v'³)` among the null vectors that are real up to a tolerance: how many there are.
+    /// The products `(u³ … v³) ⊗ (u'³ … v'³)` among the null vectors that are real up to a tolerance: how many there are; nothing
+    /// if that cannot be told.
     ///
     /// On products, the shift from one power of `v` to the next is a number, `v/u`. With a basis of the null space, both
     /// shifts become small matrices with the products as eigenvectors: those of a mixture of the two are taken.
-    pub fn products(&self, tolerance: f64, out: &mut [[f64; MONOMIALS]; SHARED]) -> usize {
+    pub fn products(&self, tolerance: f64, out: &mut [[f64; MONOMIALS]; SHARED]) -> Option<usize> {
         if self.count < 2 {
             out[0] = self.basis[0];
-            return self.count;
+            return Some(self.count);
         }
         let mut x = [[0.0; SHARED]; SHARED];
         if !self.shift(4, 1.0, &mut x) || !self.shift(1, 0.618_033_988_749_894_9, &mut x) {
-            return 0;
+            return None;
         }
         let mut values = [0.0; SHARED];
         let real = real_eigenvalues(&x, self.count, tolerance, &mut values);
@@ -66,7 +67,7 @@ impl NullSpace {
                 }
             }
         }
-        real
+        Some(real)
     }
 
     /// Adds `factor` times the matrix of the shift by `stride` entries; false if it is singular.

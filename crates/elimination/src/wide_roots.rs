@@ -115,8 +115,9 @@ fn settle(split: &Split, chart: &Chart, group: &[usize; ROOTS], own: usize, work
     if size > 1 {
         space.find(work.matrix.all(middle), SHARP);
     }
-    if size > 1 && space.count == size {
-        let real = candidates(split, middle, &space, COMPLEX, work);
+    let found =
+        if size > 1 && space.count == size { candidates(split, middle, &space, COMPLEX, work) } else { None };
+    if let Some(real) = found {
         for k in members().skip(real) {
             work.wide.radius[k / 8].0[k % 8] = -1.0;
         }
@@ -140,14 +141,20 @@ fn on_circle(chart: &Chart, x: f64, y: f64) -> [f64; 2] {
     chart.outside([x / modulus, y / modulus])
 }
 
-/// Adds the products in a null space to the candidates: how many.
-fn candidates(split: &Split, hidden: [f64; 2], space: &NullSpace, tolerance: f64, work: &mut Work) -> usize {
+/// Adds the products in a null space to the candidates: how many; nothing if it is not known which they are.
+fn candidates(
+    split: &Split,
+    hidden: [f64; 2],
+    space: &NullSpace,
+    tolerance: f64,
+    work: &mut Work,
+) -> Option<usize> {
     let mut vectors = [[0.0; MONOMIALS]; SHARED];
-    let count = space.products(tolerance, &mut vectors);
+    let count = space.products(tolerance, &mut vectors)?;
     for y in &vectors[..count] {
         work.candidates.push(Candidate { hidden, x: narrowed(split, y) });
     }
-    count
+    Some(count)
 }
 
 /// The null vector of the 12 × 12 matrix that belongs to a product of powers.

@@ -12,6 +12,9 @@ use crate::wrap::Wrap;
 use denavit_program::solver::{CANDIDATE, ROUNDED};
 use denavit_symbolic::{Expr, Symbol};
 
+/// A rotation whose entries are all off by at most `ROUNDED` has a defect, RᵀR − 1 by Frobenius' norm, of at most so many times that.
+const FARTHEST: f64 = 6.0;
+
 /// The body of a solver.
 pub(crate) struct Nested<'a> {
     pub plan: &'a Plan<'a>,
@@ -205,7 +208,7 @@ impl<'a> Nested<'a> {
         };
         let grouped = |e: String| if language == Language::Python { format!("({e})") } else { e };
         let mut conditions: Vec<String> = vec![];
-        conditions.extend(defect.iter().map(|d| grouped(format!("{d} <= {ROUNDED:e}"))));
+        conditions.extend(defect.iter().map(|d| grouped(format!("{d} <= {:e}", FARTHEST * ROUNDED))));
         conditions.push(grouped(format!("{size} <= {largest}")));
         let condition = conditions.join(and);
         self.blank();
@@ -227,12 +230,12 @@ impl<'a> Nested<'a> {
         let fourfold = format!("4{}{times}{defect}", if is_typed { ".0" } else { "" });
         let clamped = match language {
             Language::C | Language::Cuda | Language::IkFast => {
-                format!("fmax(1e-9, fmin({fourfold}, {ROUNDED:e}))")
+                format!("fmax(1e-9, fmin({fourfold}, {CANDIDATE:e}))")
             }
-            Language::Rust => format!("({fourfold}).clamp(roots::TOLERANCE, {ROUNDED:e})"),
-            Language::JavaScript => format!("Math.max(1e-9, Math.min({fourfold}, {ROUNDED:e}))"),
-            Language::Matlab => format!("max(1e-9, min({fourfold}, {ROUNDED:e}))"),
-            Language::Python => format!("np.clip({fourfold}, 1e-9, {ROUNDED:e})"),
+            Language::Rust => format!("({fourfold}).clamp(roots::TOLERANCE, {CANDIDATE:e})"),
+            Language::JavaScript => format!("Math.max(1e-9, Math.min({fourfold}, {CANDIDATE:e}))"),
+            Language::Matlab => format!("max(1e-9, min({fourfold}, {CANDIDATE:e}))"),
+            Language::Python => format!("np.clip({fourfold}, 1e-9, {CANDIDATE:e})"),
         };
         self.constant("tolerance", &clamped);
     }

@@ -6,12 +6,14 @@ mod forward;
 mod general;
 mod ikfast;
 mod inverse;
+mod ros2;
 mod samples;
 mod tables;
 mod tree;
 mod words;
 
 pub use inverse::Inverse;
+pub use ros2::{Link, Links, generate_ros2};
 pub use tree::generate_tree;
 
 use controller::Controller;
@@ -212,7 +214,7 @@ impl fmt::Display for Unable {
             Unable::Program(none) => none.fmt(f),
             Unable::Tree(why) => why.fmt(f),
             Unable::OfChains(wanted) => write!(f, "{wanted} is of a chain, not of a whole tree"),
-            Unable::NotInInterface(wanted) => write!(f, "IKFast's interface has fk and ik, and no {wanted}"),
+            Unable::NotInInterface(wanted) => write!(f, "the interface has no {wanted}"),
             Unable::Payload => f.write_str("base parameters have what the tool carries in them"),
             Unable::Loads { .. } => f.write_str("no function that is asked for feels it"),
         }
@@ -252,8 +254,8 @@ impl Generated {
     }
 }
 
-/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, JavaScript, Rust and behind
-/// IKFast's interface, and left out in other languages. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, Rust,
+/// Python, JavaScript, MATLAB and behind IKFast's interface, and left out in CUDA. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
 /// them. IKFast's interface has `fk` and `ik`, both of them, with the values of parameters in them.
 ///
 /// # Errors

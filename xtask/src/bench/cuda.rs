@@ -14,7 +14,7 @@ use std::process::Command;
 /// The part's name.
 pub(super) const NAME: &str = "gpu";
 const MOVING: &str = "torque,inertia,acceleration,torque_with_derivatives";
-/// How far the kernels may be from the truth, in units in the last place.
+/// How far the kernels may be from C, in units in the last place.
 const UNITS: f64 = 4.0;
 
 const INTRODUCTION: &str = "\
@@ -22,8 +22,8 @@ A UR5 and a Panda with the numbers of their URDFs: generated kernels, one thread
 precision, compiled by nvcc for the device. Each kernel computes @count@ random configurations that lie in the device's memory;\n\
 times are medians of 25 launches. Bytes are those that must be read and written for one configuration; the share is theirs a\n\
 second, of what a copy within the device's memory reads and writes (@copy@ here). Beside it: how far\n\
-@held@ of the results are from the same statements in long double, and how far generated C (one state, gcc) is from them, in units in\n\
-the last place of the largest value that any result takes; for `ik` how many have another number of solutions than C, another\n\
+@held@ of the results are from those of generated C (one state, gcc), and how far both are from the same statements in long double, in\n\
+units in the last place of the largest value that any result takes; for `ik` how many have another number of solutions than C, another\n\
 certificate or a solution that is off by more than 1e-7. Accelerations divide by the pivots of the inertia matrix, which makes rounding\n\
 as many times larger as the matrix is badly conditioned, in C as in CUDA.\n";
 
@@ -132,22 +132,24 @@ fn table(measured: &Value) -> Result<String> {
         .replace("@count@", &number(measured, "count")?.to_string())
         .replace("@held@", &number(measured, "held")?.to_string())
         .replace("@copy@", &format!("{:.2} TB/s", copy / 1e12));
-    text += "\n| | precision | ns a configuration | bytes | share of the copy | off by | C | limit |\n\
-             |---|---|---:|---:|---:|---:|---:|---:|\n";
+    text += "\n| | precision | ns a configuration | bytes | share of the copy | from C | limit | off by | C |\n\
+             |---|---|---:|---:|---:|---:|---:|---:|---:|\n";
     for figure in measured["figures"].as_array().context("a list of figures")? {
         let name = word(figure, "name");
-        let (off, of_c) = (number(figure, "off")?, number(figure, "c")?);
+        let apart = number(figure, "apart")?;
         let limit = if name == "ik" { 0.0 } else { UNITS };
-        let held = if name == "ik" { format!("{off:.0} of 10^6") } else { format!("{off:.2} units") };
+        let held = if name == "ik" { format!("{apart:.0} of 10^6") } else { format!("{apart:.2} units") };
         let _ = writeln!(
             text,
-            "| {}: {name} | {} | {:.3} | {:.0} | {:.0} % | {held} | {of_c:.2} | {limit}{} |",
+            "| {}: {name} | {} | {:.3} | {:.0} | {:.0} % | {held} | {limit}{} | {:.2} | {:.2} |",
             word(figure, "arm"),
             word(figure, "real"),
             number(figure, "ns")?,
             number(figure, "bytes")?,
             100.0 * number(figure, "share")?,
-            if off > limit { format!(" {MISSED}") } else { String::new() },
+            if apart > limit { format!(" {MISSED}") } else { String::new() },
+            number(figure, "off")?,
+            number(figure, "c")?,
         );
     }
     Ok(text)

@@ -23,8 +23,9 @@ pub struct Plan<'a> {
     pub parts: &'a [Part<'a>],
     /// Parts of names of functions that nothing calls: they stand in the table for somebody else's sake.
     pub dropped: &'a [&'a str],
-    /// Constant texts that the last part alone reads.
+    /// Constant texts that one part alone reads, and which.
     pub texts: &'a [Vec<u8>],
+    pub reader: usize,
 }
 
 /// A part of the module.
@@ -102,7 +103,7 @@ pub fn split(wasm: &[u8], plan: &Plan) -> Result<Vec<Vec<u8>>> {
             needed.entry(*g).or_insert(next);
         }
     }
-    let border = Border { part, slots, needed, data: divided(&whole, plan.texts) };
+    let border = Border { part, slots, needed, data: divided(&whole, plan.texts), reader: plan.reader };
     let mut made = vec![];
     for (k, wanted) in plan.parts.iter().enumerate() {
         let part = if k == 0 { first(&whole, wanted, &border)? } else { later(&whole, wanted, &border, k)? };
@@ -121,6 +122,8 @@ struct Border<'a> {
     /// The functions that a later part calls, with numbers for their names.
     needed: BTreeMap<u32, usize>,
     data: Divided<'a>,
+    /// The part that reads its texts.
+    reader: usize,
 }
 
 impl Border<'_> {
@@ -414,8 +417,8 @@ fn later(whole: &Whole, wanted: &Part, border: &Border, part: usize) -> Result<V
             .parse_function_body(&mut code, whole.bodies[f as usize - whole.imported].clone())?;
     }
     module.section(&code);
-    if part + 1 == border.slots.len() {
-        module.section(&constants(&border.data.last));
+    if part == border.reader {
+        module.section(&constants(&border.data.texts));
     }
     Ok(module.finish())
 }
@@ -423,12 +426,12 @@ fn later(whole: &Whole, wanted: &Part, border: &Border, part: usize) -> Result<V
 /// Constant data, where it is in memory.
 struct Divided<'a> {
     first: Vec<(u32, &'a [u8])>,
-    last: Vec<(u32, &'a [u8])>,
+    texts: Vec<(u32, &'a [u8])>,
 }
 
-/// The texts of the last part taken out of the data of the first.
+/// The texts of one part taken out of the data of the first.
 fn divided<'a>(whole: &Whole<'a>, texts: &[Vec<u8>]) -> Divided<'a> {
-    let mut divided = Divided { first: vec![], last: vec![] };
+    let mut divided = Divided { first: vec![], texts: vec![] };
     for &(start, bytes) in &whole.data {
         let found =
             texts.iter().filter_map(|text| memchr::memmem::find(bytes, text).map(|at| at..at + text.len()));
@@ -439,7 +442,7 @@ fn divided<'a>(whole: &Whole<'a>, texts: &[Vec<u8>]) -> Divided<'a> {
             // A text may lie in another.
             if cut.start >= done {
                 divided.first.push((start + done as u32, &bytes[done..cut.start]));
-                divided.last.push((start + cut.start as u32, &bytes[cut.clone()]));
+                divided.texts.push((start + cut.start as u32, &bytes[cut.clone()]));
                 done = cut.end;
             }
         }
@@ -532,7 +535,7 @@ mod tests {
         }
         module.section(&code);
         let mut data = DataSection::new();
-        data.active(0, &ConstExpr::i32_const(16), b"kept, a text of the last part, kept".iter().copied());
+        data.active(0, &ConstExpr::i32_const(16), b"kept, a text of a later part, kept".iter().copied());
         module.section(&data);
         let mut names = wasm_encoder::NameSection::new();
         let mut map = wasm_encoder::NameMap::new();
@@ -544,8 +547,8 @@ mod tests {
 
     fn parts(named: &[&str]) -> Vec<Vec<u8>> {
         let parts = [Part { exports: &["memory", "now"], named: &[] }, Part { exports: &["later"], named }];
-        let texts = [b"a text of the last part".to_vec()];
-        split(&module(), &Plan { parts: &parts, dropped: &[], texts: &texts }).unwrap()
+        let texts = [b"a text of a later part".to_vec()];
+        split(&module(), &Plan { parts: &parts, dropped: &[], texts: &texts, reader: 1 }).unwrap()
     }
 
     #[test]
@@ -560,7 +563,7 @@ mod tests {
             second,
             (vec!["0.f0".into(), "0.memory".into(), "0.table".into()], vec!["later".into()], 3)
         );
-        assert_eq!(first.data, [(16, &b"kept, "[..]), (45, &b", kept"[..])]);
+        assert_eq!(first.data, [(16, &b"kept, "[..]), (44, &b", kept"[..])]);
     }
 
     #[test]
@@ -573,7 +576,7 @@ mod tests {
     #[test]
     fn an_export_that_is_missing_is_named() {
         let parts = [Part { exports: &["nothing"], named: &[] }];
-        let why = split(&module(), &Plan { parts: &parts, dropped: &[], texts: &[] }).unwrap_err();
+        let why = split(&module(), &Plan { parts: &parts, dropped: &[], texts: &[], reader: 0 }).unwrap_err();
         assert_eq!(why.to_string(), "nothing is exported as `nothing`");
     }
 

@@ -82,7 +82,7 @@ pub struct RobotsArguments {
 }
 
 /// The robot that a command is about.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct RobotArguments {
     /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex, .typ) or program that makes a robot
     /// (.m, .py); - reads a robot file, URDF, MJCF or table from standard input
@@ -405,7 +405,7 @@ pub struct DeriveArguments {
 }
 
 /// `generate`
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct GenerateArguments {
     /// The robot.
     #[command(flatten)]
@@ -414,10 +414,11 @@ pub struct GenerateArguments {
     #[arg(long, short, value_enum)]
     pub language: LanguageName,
     /// Functions, separated by commas: fk (pose of the tool), frames (all link frames), jacobian (of the tool),
-    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose; in C and Rust ik_nearest
-    /// and ik_all_within_limits, too); torque (inverse dynamics), inertia, bias, gravity, acceleration (direct dynamics),
-    /// energy, torque_derivatives, acceleration_derivatives; torque_with_derivatives, acceleration_with_derivatives (both
-    /// in one pass). Without it fk and, where there is one, ik; what is named is there, or nothing is written
+    /// jacobian_fk (both in one pass; comes with `fk,jacobian`), ik (all joint variables for a pose; but for CUDA, ikfast
+    /// and --float also ik_nearest and ik_all_within_limits); torque (inverse dynamics), inertia, bias, gravity,
+    /// acceleration (direct dynamics), energy, torque_derivatives, acceleration_derivatives; torque_with_derivatives,
+    /// acceleration_with_derivatives (both in one pass). Without it fk and, where there is one, ik; what is named is there,
+    /// or nothing is written
     #[arg(long, short, value_name = "NAMES")]
     pub functions: Option<String>,
     /// For ik: joint variables to be given beside the pose, as in `--given q3` (names or numbers, separated by commas);
@@ -431,6 +432,12 @@ pub struct GenerateArguments {
     /// those of its links otherwise
     #[arg(long, value_enum)]
     pub masses: Option<MassesName>,
+    /// The SRDF that names the chain, with --group: a planning group of MoveIt's
+    #[arg(long, value_name = "FILE", requires = "group", conflicts_with_all = ["base", "tip", "whole"])]
+    pub srdf: Option<String>,
+    /// The group of the SRDF
+    #[arg(long, value_name = "NAME", requires = "srdf")]
+    pub group: Option<String>,
     /// Dynamic functions of all joints of a tree of bodies (a URDF, an MJCF or a tree of rows), q1, q2, … in their order, and not of
     /// one chain through it: the root stands still
     #[arg(long, conflicts_with_all = ["given", "wrench", "payload", "base", "tip"])]
@@ -523,13 +530,16 @@ pub enum LanguageName {
     Cuda,
     /// A C++ file with IKFast's interface (ComputeIk, ComputeFk), for MoveIt, OpenRAVE, Tesseract
     Ikfast,
+    /// A ROS 2 package with plug-ins for MoveIt 2 and ros2_control, of a chain of a URDF
+    Ros2,
 }
 
 impl From<LanguageName> for Language {
     fn from(name: LanguageName) -> Self {
         match name {
             LanguageName::Rust => Language::Rust,
-            LanguageName::C => Language::C,
+            // The package has the functions in C.
+            LanguageName::C | LanguageName::Ros2 => Language::C,
             LanguageName::Python => Language::Python,
             LanguageName::Matlab => Language::Matlab,
             LanguageName::Javascript => Language::JavaScript,

@@ -1,16 +1,17 @@
 //! `denavit generate`: source code that builds and tests itself.
 
-use crate::arguments::GenerateArguments;
+use crate::arguments::{GenerateArguments, LanguageName};
 use crate::commands::dynamics::tree;
 use crate::commands::fk::tree::bodies;
 use crate::failure::Failure;
-use crate::load;
+use crate::load::{self, Around, Tree};
 use crate::terminal::{FAINT, HEADING, NAME, note, styled};
-use denavit::description::Description;
+use denavit::description::{Description, MAX_XML_BYTES, read_srdf, render};
 use denavit::dynamics::{Loads, NoProgram};
 use denavit::inverse;
+use denavit::robot::Robot;
 use denavit_emit::{Language, Precision};
-use denavit_generate::{Generated, Inverse, PackageOptions, Unable, Wanted};
+use denavit_generate::{Generated, Inverse, Links, PackageOptions, Unable, Wanted, generate_ros2};
 use denavit_wire::code::Written;
 use std::fs;
 use std::io::Write;
@@ -38,9 +39,14 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
             true
         }
     });
+    let of_group = group_chain(arguments)?;
+    let arguments = of_group.as_ref().unwrap_or(arguments);
     let language: Language = arguments.language.into();
     if arguments.float && !matches!(language, Language::C | Language::Cuda) {
         return Err(Failure::Usage(format!("--float: {} computes in double precision", language.name())));
+    }
+    if let (true, Some(option)) = (is_package(arguments), not_in_package(arguments)) {
+        return Err(Failure::Usage(format!("{option} is not for --language ros2")));
     }
     let generated = match arguments.whole {
         true => of_tree(arguments, functions, language),
@@ -61,10 +67,15 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     }
     let mut out = anstream::stdout();
     if arguments.json {
-        let written = Written::of(&generated, language, &arguments.output);
+        let mut written = Written::of(&generated, language, &arguments.output);
+        if is_package(arguments) {
+            written.language = ROS2;
+        }
         writeln!(out, "{}", denavit_wire::text(&written))?;
     } else {
-        write!(out, "{}", report(&generated, language, &arguments.output))?;
+        let what = if is_package(arguments) { ROS2 } else { language.name() };
+        let test = generated.test_command(language);
+        write!(out, "{}", report(&generated, what, &test, &arguments.output))?;
     }
     Ok(())
 }
@@ -75,13 +86,76 @@ fn of_chain(
     functions: Vec<Wanted>,
     language: Language,
 ) -> Result<Generated, Failure> {
-    let description = load::robot(&arguments.robot)?;
+    let (description, around) = load::robot_and_around(&arguments.robot)?;
     let given = arguments.given.as_deref().map(|words| joints(words, &description)).transpose()?;
     let options = PackageOptions {
         inverse: inverse::InverseOptions { goal: arguments.goal.into(), given },
         ..options(arguments, functions, language, &description.name)
     };
+    if is_package(arguments) {
+        return package(&description, &around, &options, arguments);
+    }
     denavit_generate::generate(&description, &options).map_err(|why| refused(&why, arguments))
+}
+
+/// The arguments with base and tip of the group that they name.
+fn group_chain(arguments: &GenerateArguments) -> Result<Option<GenerateArguments>, Failure> {
+    let (Some(file), Some(name)) = (&arguments.srdf, &arguments.group) else { return Ok(None) };
+    let Some(Tree::Bodies(mechanism)) = load::mechanism(&arguments.robot)? else {
+        return Err(Failure::Usage("--srdf is for the groups of a URDF or MJCF".into()));
+    };
+    let text = load::contents(file, MAX_XML_BYTES)
+        .map_err(|e| Failure::Input(format!("error: {file}: {e}")))?;
+    let (groups, findings) =
+        read_srdf(&text).map_err(|errors| Failure::Input(render(&errors, file, &text)))?;
+    note(render(&findings, file, &text).trim_end());
+    let [base, tip] = mechanism
+        .ends_of_group(&groups, name)
+        .map_err(|why| Failure::Input(format!("error: {file}: {why}")))?;
+    let mut own = arguments.clone();
+    (own.robot.base, own.robot.tip) = (Some(base), Some(tip));
+    Ok(Some(own))
+}
+
+/// What is written for `--language ros2`.
+const ROS2: &str = "ROS 2 package";
+
+fn is_package(arguments: &GenerateArguments) -> bool {
+    matches!(arguments.language, LanguageName::Ros2)
+}
+
+/// An option that a package has no place for.
+fn not_in_package(arguments: &GenerateArguments) -> Option<&'static str> {
+    let given = [
+        (arguments.whole, "--whole"),
+        (arguments.float, "--float"),
+        (arguments.wrench, "--wrench"),
+        (arguments.payload, "--payload"),
+        (arguments.masses.is_some(), "--masses"),
+    ];
+    given.into_iter().find(|g| g.0).map(|g| g.1)
+}
+
+/// A package for ROS 2.
+fn package(
+    description: &Description,
+    around: &Around,
+    options: &PackageOptions,
+    arguments: &GenerateArguments,
+) -> Result<Generated, Failure> {
+    let file = &arguments.robot.robot;
+    let Around::Bodies(both) = around else {
+        return Err(Failure::Input(format!(
+            "error: {file}: a package for ROS 2 needs the names of links and joints, which a table does not have\n  = hint: \
+             give the URDF of the robot; `denavit convert {file} --to urdf` writes one"
+        )));
+    };
+    let robot = Robot::numeric(description).map_err(|missing| {
+        Failure::Input(format!("error: {file}: {missing}\n  = hint: give values with --set"))
+    })?;
+    let mut links = Links::new(&both.0, &both.1, &robot);
+    links.group.clone_from(&arguments.group);
+    generate_ros2(description, &links, options).map_err(|why| refused(&why, arguments))
 }
 
 /// Functions of a whole tree.
@@ -128,8 +202,9 @@ fn refused(why: &Unable, arguments: &GenerateArguments) -> Failure {
             )
         }
         Unable::NotInInterface(_) => {
+            let name = if is_package(arguments) { "ros2" } else { "ikfast" };
             format!(
-                "error: --language ikfast: {why}\n  = hint: --language c has all functions, and is C++ too"
+                "error: --language {name}: {why}\n  = hint: --language c has all functions, and is C++ too"
             )
         }
         Unable::Program(NoProgram::Energy) => {
@@ -206,8 +281,8 @@ fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failur
     Ok(())
 }
 
-fn report(generated: &Generated, language: Language, folder: &Path) -> String {
-    let mut text = format!("{} in {}\n", styled(language.name(), HEADING), folder.display());
+fn report(generated: &Generated, what: &str, test: &str, folder: &Path) -> String {
+    let mut text = format!("{} in {}\n", styled(what, HEADING), folder.display());
     for file in &generated.files {
         text += &format!(
             "  {}  {}\n",
@@ -221,7 +296,7 @@ fn report(generated: &Generated, language: Language, folder: &Path) -> String {
     if let Some(ik) = &generated.inverse {
         text += &format!("{}: {}\n", styled("ik", NAME), in_words(ik));
     }
-    text += &format!("test it there with: {}\n", generated.test_command(language));
+    text += &format!("test it there with: {test}\n");
     text
 }
 

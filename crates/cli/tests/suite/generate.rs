@@ -140,9 +140,9 @@ fn refusals() {
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--name", "/"], 2, "--name needs");
     refused(&["generate", "prrrrp", "--language", "c", "-o", "x", "--fixed"], 3, "no value for");
     refused(
-        &["generate", "oblique-6r", "--language", "python", "-o", "x", "--functions", "ik"],
+        &["generate", "oblique-6r", "--language", "cuda", "-o", "x", "--functions", "ik"],
         4,
-        "elimination is generated in C, JavaScript and Rust",
+        "elimination is generated in C, Rust, Python, JavaScript and MATLAB",
     );
     refused(&["generate", "ur5", "--language", "c", "-o", "x", "--given", "q9"], 2, "no joint `q9`");
     refused(
@@ -220,21 +220,21 @@ fn joints_too_many_are_given() {
 }
 
 #[test]
-fn an_arm_without_closed_form_has_the_forward_model_only() {
+fn an_arm_without_closed_form_has_the_forward_model_only_in_cuda() {
     let folder = folder("oblique");
     let path = folder.to_str().expect("a path");
-    let output = denavit(&["generate", "oblique-6r", "--language", "python", "--output", path]);
+    let output = denavit(&["generate", "oblique-6r", "--language", "cuda", "--output", path]);
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(said.contains("warning: no ik: no closed form"), "{said}");
-    let module = fs::read_to_string(folder.join("oblique_6r.py")).expect("the module is there");
-    assert!(module.contains("def fk(") && !module.contains("def ik("));
+    let module = fs::read_to_string(folder.join("oblique_6r.cuh")).expect("the module is there");
+    assert!(module.contains("oblique_6r_fk(") && !module.contains("oblique_6r_ik("));
     // What is asked for by its name is there, or nothing is.
     let output = denavit(&[
         "generate",
         "oblique-6r",
         "--language",
-        "python",
+        "cuda",
         "--functions",
         "fk,ik",
         "--output",

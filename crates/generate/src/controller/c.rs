@@ -92,7 +92,9 @@ impl Controller<'_> {
         let search =
             if has_given { include_str!("c/search_given.c") } else { include_str!("c/search_plain.c") };
         let spread = if has_given { include_str!("c/spread.c") } else { "" };
-        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
+        let solve_goal = if self.passes_rounded() { "result->off <= 1e-5 ? pose : goal" } else { "goal" };
+        let parameters_check = "\n    if (!answer_is_finite((const double *)parameters, (int)(sizeof *parameters / sizeof(double)))) {\n        \
+                                status = @NAME@_IK_NOT_FINITE;\n    }";
         let (configurations, counts) = self.tested();
         let parameters_test = format!(
             "\n    const @name@_parameters values = {{\n{}    }};\n    const @name@_parameters *parameters = &values;",
@@ -141,6 +143,7 @@ impl Controller<'_> {
             .replace("@range@", self.range())
             .replace("@nearest@", &nearest)
             .replace("@given_check@", &either(has_given, &given_check))
+            .replace("@parameters_check@", &either(p, parameters_check))
             .replace("@given_declaration@", &either(has_given, &given_line))
             .replace("@given_local@", &either(has_given, &given_line))
             .replace("@given_passed@", if has_given { ", given" } else { "" })

@@ -53,9 +53,13 @@ impl Controller<'_> {
         } else {
             include_str!("matlab/search_plain.m")
         };
-        let max = match self.solver {
-            Solver::Closed(closed) => closed.facts().max_solutions,
-            Solver::General(_) => MAX,
+        let (max, branch, branch_about) = match self.solver {
+            Solver::Closed(closed) => (
+                closed.facts().max_solutions,
+                "info.branch",
+                "label branch + 1 of @NAME@_SOLVE is its; -1 if it is none's",
+            ),
+            Solver::General(_) => (MAX, "-ones(size(q, 1), 1)", "-1: by elimination there are none"),
         };
         let given: Vec<String> = self.given.iter().map(|j| (j + 1).to_string()).collect();
         let given = if has_given { format!("[{}]", given.join(", ")) } else { "zeros(1, 0)".into() };
@@ -92,6 +96,8 @@ impl Controller<'_> {
             .replace("@flatten@", flatten)
             .replace("@solve_goal@", solve_goal)
             .replace("@max@", &max.to_string())
+            .replace("@branch@", branch)
+            .replace("@branch_about@", branch_about)
             .replace("@given_about@", &either(has_given, &given_about))
             .replace("@given_check@", &either(has_given, &given_check))
             .replace("@given_local@", if has_given { ", given" } else { "" })
@@ -147,11 +153,11 @@ fn list(values: &[f64]) -> String {
     values.join(", ")
 }
 
-fn row(values: &[f64]) -> String {
+pub(crate) fn row(values: &[f64]) -> String {
     format!("[{}]", list(values))
 }
 
-fn rows(values: &[Vec<f64>]) -> String {
+pub(crate) fn rows(values: &[Vec<f64>]) -> String {
     let rows: Vec<String> = values.iter().map(|row| format!("    {}", list(row))).collect();
     format!("[ ...\n{} ...\n]", rows.join("; ...\n"))
 }

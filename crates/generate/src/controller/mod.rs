@@ -7,8 +7,8 @@
 
 mod c;
 mod javascript;
-mod matlab;
-mod python;
+pub(crate) mod matlab;
+pub(crate) mod python;
 mod rust;
 
 use super::{Solver, samples};

@@ -1,6 +1,8 @@
 //! The functions in Python: behind the others of the module.
 
 use super::{Controller, SAMPLES};
+use crate::Solver;
+use crate::general::MAX;
 use crate::tables::wrapped_in;
 use denavit::inverse::Goal;
 use denavit_emit::Attachment;
@@ -10,7 +12,7 @@ const IMPORTS: &str =
     "from enum import IntEnum\nfrom itertools import islice, product\nfrom typing import NamedTuple\n";
 
 /// The longest line.
-const WIDTH: usize = 88;
+pub(crate) const WIDTH: usize = 88;
 
 /// The functions with their test.
 pub(super) fn attachment(own: &Controller) -> Attachment {
@@ -92,9 +94,26 @@ impl Controller<'_> {
             (true, false) => ("parameters: Parameters", "*,\n    parameters: Parameters"),
         };
         let limits = "limits: tuple[ArrayLike, ArrayLike] = LIMITS";
+        let (most, branch, listed) = match self.solver {
+            Solver::Closed(_) => (
+                "len(SOLVE_BRANCHES)".to_string(),
+                "The number of its branch, whose label is in `SOLVE_BRANCHES`, if it is one's.",
+                "q, residual, multiplicity, branch, _, counts, certificate",
+            ),
+            Solver::General(_) => {
+                let about = "None: by elimination there are no branches.";
+                (MAX.to_string(), about, "q, residual, multiplicity, _, counts, certificate")
+            }
+        };
+        let is_general = matches!(self.solver, Solver::General(_));
+        let no_branch = either(is_general, "\n    branch = np.full(residual.shape, None)");
         let given: Vec<String> = self.given.iter().map(usize::to_string).collect();
         let given = format!("[{}]", given.join(", "));
         template
+            .replace("@most@", &most)
+            .replace("@branch@", branch)
+            .replace("@listed@", listed)
+            .replace("@no_branch@", &no_branch)
             .replace("@search@", search.trim_end())
             .replace("@spread@", if has_given { include_str!("python/spread.py.txt") } else { "" })
             .replace("@twist@", twist.trim_end())
@@ -158,7 +177,7 @@ fn list(values: &[f64]) -> String {
 }
 
 /// An array on a line or more, at a depth of four spaces or none.
-fn row(values: &[f64]) -> String {
+pub(crate) fn row(values: &[f64]) -> String {
     let whole = list(values);
     if whole.len() <= WIDTH - 30 {
         return format!("np.array({whole})");
@@ -168,7 +187,7 @@ fn row(values: &[f64]) -> String {
 }
 
 /// An array with a list a row.
-fn rows(values: &[Vec<f64>], indent: usize) -> String {
+pub(crate) fn rows(values: &[Vec<f64>], indent: usize) -> String {
     let margin = " ".repeat(indent);
     let rows = values.iter().map(|row| {
         let whole = format!("{margin}        {},\n", list(row));

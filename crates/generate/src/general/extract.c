@@ -134,7 +134,7 @@ static NOINLINE void ik_null_vectors(
 static int ik_null_space(
     double m[IK_UNKNOWNS][IK_UNKNOWNS], double basis[IK_SHARED][IK_UNKNOWNS])
 {
-    int order[IK_UNKNOWNS];
+    int order[IK_UNKNOWNS] = {0};
     int rank = 0;
     double first = 0.0;
     for (int k = 0; k < IK_UNKNOWNS; k++) {

@@ -1,10 +1,12 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C and JavaScript.
+//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C, JavaScript, Python and MATLAB.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C and JavaScript have the same algorithm in `general/*.c`
-//! and `general/javascript`.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, JavaScript,
+//! Python and MATLAB in folders of their names, the latter two over arrays.
 
 mod c;
 mod javascript;
+mod matlab;
+mod python;
 mod rust;
 
 use super::PackageOptions;
@@ -34,7 +36,7 @@ pub(super) struct General {
     language: Language,
     axes: SixAxes,
     plan: Plan,
-    /// What C and JavaScript print.
+    /// What languages other than Rust print.
     tables: Option<Tables>,
     is_angle: [bool; 6],
     /// What lengths are compared with, metres.
@@ -81,16 +83,18 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast | Language::JavaScript if tables.is_some() => {}
-            Language::C | Language::IkFast | Language::JavaScript => {
-                return Err(Some(
-                    "elimination in this language serves arms with at most one prismatic joint; --language rust serves this one"
-                        .into(),
-                ));
+            Language::C | Language::IkFast | Language::Python | Language::JavaScript | Language::Matlab
+                if tables.is_some() => {}
+            Language::C | Language::IkFast | Language::Python | Language::JavaScript | Language::Matlab => {
+                return Err(Some(format!(
+                    "elimination in {} serves arms with at most one prismatic joint; --language rust serves this one",
+                    options.language.name()
+                )));
             }
-            Language::Python | Language::Matlab | Language::Cuda => {
+            Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C, JavaScript and Rust (--language c, javascript or rust; --language ikfast is C++)"
+                    "elimination is generated in C, Rust, Python, JavaScript and MATLAB (--language c, rust, python, javascript, matlab; \
+                     ikfast is C++)"
                         .into(),
                 ));
             }
@@ -143,6 +147,8 @@ impl General {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
             (Some(tables), Language::JavaScript) => javascript::attachment(self, tables),
+            (Some(tables), Language::Python) => python::attachment(self, tables),
+            (Some(tables), Language::Matlab) => matlab::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }

@@ -242,7 +242,7 @@ static NOINLINE int ik_shift(const ik_null *null, int stride, double factor, dou
 }
 
 /* The products (u^3 ... v^3) x (u'^3 ... v'^3) among the null vectors that are real up to a tolerance: how
-   many. They are the eigenvectors of a mixture of both shifts. */
+   many; -1 if that cannot be told. They are the eigenvectors of a mixture of both shifts. */
 static NOINLINE int ik_products(const ik_null *null, double tolerance, double out[IK_SHARED][IK_MONOMIALS])
 {
     const int count = null->count;
@@ -258,7 +258,7 @@ static NOINLINE int ik_products(const ik_null *null, double tolerance, double ou
         }
     }
     if (!ik_shift(null, 4, 1.0, x) || !ik_shift(null, 1, 0.6180339887498949, x)) {
-        return 0;
+        return -1;
     }
     const int real_values = ik_real_eigenvalues(x, count, tolerance, values);
     for (int n = 0; n < real_values; n++) {
@@ -326,7 +326,7 @@ static void ik_narrowed(
     }
 }
 
-/* Offers the products in a null space: how many. */
+/* Offers the products in a null space: how many; -1 if it is not known which they are. */
 static NOINLINE int ik_wide_products(
     const double hidden[2], const ik_null *null, double tolerance, ik_batch *batch)
 {
@@ -406,6 +406,9 @@ static NOINLINE int ik_settle_middle(
     }
     /* Ten times the root of that bound is the most by which a double eigenvalue can be off. */
     int rest = ik_wide_products(hidden, &null, 1e-3, batch);
+    if (rest < 0) {
+        return 0;
+    }
     for (int k = 0; k < work->roots; k++) {
         if (group[k] == own && rest-- <= 0) {
             work->radius[k] = -1.0;

@@ -17,7 +17,7 @@ use crate::common::{Random, share};
 /// Strict C, as C programmers who ship it have it.
 const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic -std=c99 -ffp-contract=off";
 /// One prismatic joint among oblique axes.
-const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
+pub const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
 /// Two of them.
 const TWO_SLIDES: &str = include_str!("../robots/two-slides.toml");
 
@@ -77,15 +77,19 @@ fn check_c(name: &str, d: &Description, least: usize) {
     }
 }
 
-/// A pose with the last axis along the first or against it, and all configurations that have it.
-struct Aligned {
+/// A pose, and all configurations that have it.
+struct Known {
     pose: Transform<f64>,
     solutions: Vec<Vec<f64>>,
 }
 
-/// Poses within reach of an arm whose first axis is z of the base and whose last one is z of the tool, at which our solver
-/// is certain of all solutions, none of them nearly double.
-fn aligned(d: &Description, count: usize) -> Vec<Aligned> {
+/// Poses made of those of random configurations and two random numbers, at which our solver is certain of all solutions, at
+/// least one and none of them nearly double.
+fn known(
+    d: &Description,
+    count: usize,
+    made: impl Fn(Transform<f64>, [f64; 2]) -> Transform<f64>,
+) -> Vec<Known> {
     let robot = Robot::numeric(d).expect("all values are known");
     let space = JointSpace::new(d, &robot);
     let solver = GeneralSolver::new(&robot, &space).expect("it has six axes");
@@ -94,19 +98,27 @@ fn aligned(d: &Description, count: usize) -> Vec<Aligned> {
     let mut all = vec![];
     for _ in 0..8 * count {
         let q: Vec<f64> = (0..6).map(|_| angle()).collect();
-        let (s, c) = angle().sin_cos();
-        let up = if angle() > 2.0 { 1.0 } else { -1.0 };
-        let rotation = Rotation::from_rows([[c, -up * s, 0.0], [s, up * c, 0.0], [0.0, 0.0, up]]);
-        let pose = Transform { rotation, ..robot.pose(&q) };
+        let pose = made(robot.pose(&q), [angle(), angle()]);
         let answer = solver.solve(&pose);
         let is_clean = answer.solutions.iter().all(|s| s.residual <= 1e-11 && s.guard >= 1e-3);
         let is_certain = answer.doubt.is_none() && answer.families.is_empty() && is_clean;
         if is_certain && !answer.solutions.is_empty() && all.len() < count {
-            all.push(Aligned { pose, solutions: answer.solutions.into_iter().map(|s| s.q).collect() });
+            all.push(Known { pose, solutions: answer.solutions.into_iter().map(|s| s.q).collect() });
         }
     }
     assert_eq!(all.len(), count, "poses");
     all
+}
+
+/// Poses within reach of an arm whose first axis is z of the base and whose last one is z of the tool, the last axis along the
+/// first or against it.
+fn aligned(d: &Description, count: usize) -> Vec<Known> {
+    known(d, count, |pose, [turn, side]| {
+        let (s, c) = turn.sin_cos();
+        let up = if side > 2.0 { 1.0 } else { -1.0 };
+        let rotation = Rotation::from_rows([[c, -up * s, 0.0], [s, up * c, 0.0], [0.0, 0.0, up]]);
+        Transform { rotation, ..pose }
+    })
 }
 
 /// A program that holds the C function to sets of solutions: the number, each solution (to what a residual of 1e-10 is
@@ -192,6 +204,110 @@ fn check_aligned(name: &str, d: &Description) {
     run(Command::new("./aligned").current_dir(&target));
 }
 
+/// A language that is interpreted: what its program is called with, ahead of the file that runs; and a program that reads a
+/// pose a line, and writes the number of the certificate and all joints.
+struct Interpreted {
+    language: Language,
+    program: String,
+    arguments: &'static [&'static str],
+    driver: (&'static str, &'static str),
+}
+
+fn python() -> Interpreted {
+    Interpreted {
+        language: Language::Python,
+        program: std::env::var("DENAVIT_PYTHON").unwrap_or("python3".into()),
+        arguments: &["-B", "-W", "error"],
+        driver: (
+            "driver.py",
+            "
+import sys
+import numpy as np
+import arm
+found = arm.solve(np.loadtxt(sys.stdin, ndmin=2).reshape(-1, 3, 4))
+for q, count, certificate in zip(found.q, found.count, found.certificate):
+    print(certificate, *q[:count].ravel().tolist())
+",
+        ),
+    }
+}
+
+fn octave() -> Interpreted {
+    Interpreted {
+        language: Language::Matlab,
+        program: "octave".into(),
+        arguments: &["--no-gui", "--quiet", "--norc"],
+        driver: (
+            "driver.m",
+            r"
+words = {'complete', 'near double root', 'undecided', 'not a pose'};
+while ischar(line = fgetl(stdin))
+    [q, info] = arm_solve(reshape(sscanf(line, '%f'), 4, 3).');
+    printf('%d', find(strcmp(words, info.certificate)) - 1);
+    printf(' %.17g', q.');
+    printf('\n');
+end
+",
+        ),
+    }
+}
+
+impl Interpreted {
+    /// The function of an arm tests itself, and lists what our solver does at random poses, with a certificate but at one pose in
+    /// a hundred.
+    fn check(&self, name: &str, d: &Description, least: usize, has_parallel_axes: bool) {
+        let found = generated(d, self.language, &[Wanted::Pose, Wanted::Inverse]);
+        let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
+        assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
+        let target = folder(&format!("elimination-{:?}-{name}", self.language), &found);
+        let test = found.files.iter().map(|f| &f.path).find(|p| p.starts_with("test_")).expect("a test");
+        run(Command::new(&self.program).args(self.arguments).arg(test).current_dir(&target));
+
+        let count = share(500, 30);
+        let mut all = known(d, count, |pose, _| pose);
+        if has_parallel_axes {
+            all.extend(aligned(d, count));
+        }
+        let row = |x: &[f64]| x.iter().map(|x| format!("{x:e} ")).collect::<String>();
+        let poses: String = all.iter().map(|k| row(&k.pose.matrix()[..3].concat()) + "\n").collect();
+        fs::write(target.join("poses"), poses).expect("it can be written");
+        fs::write(target.join(self.driver.0), self.driver.1).expect("it can be written");
+        let output = Command::new(&self.program)
+            .args(self.arguments)
+            .arg(self.driver.0)
+            .stdin(fs::File::open(target.join("poses")).expect("it is there"))
+            .current_dir(&target)
+            .output()
+            .expect("it runs");
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(text.lines().count(), all.len(), "{name}: a line a pose");
+        let robot = Robot::numeric(d).expect("all values are known");
+        let space = JointSpace::new(d, &robot);
+        let mut uncertain = 0;
+        for (line, known) in text.lines().zip(&all) {
+            let numbers: Vec<f64> = line.split_whitespace().map(|x| x.parse().expect("a number")).collect();
+            let own: Vec<&[f64]> = numbers[1..].chunks(6).collect();
+            let is_there = |s: &Vec<f64>| own.iter().any(|q| space.distance(s, q) <= 1e-7);
+            let is_same = own.len() == known.solutions.len() && known.solutions.iter().all(is_there);
+            assert!(is_same, "{name}: {own:?} at {:?}, not {:?}", known.pose, known.solutions);
+            uncertain += usize::from(numbers[0] != 0.0);
+        }
+        println!("{name}: {uncertain} of {} without certificate", all.len());
+        assert!(100 * uncertain <= all.len(), "{name}: {uncertain} without certificate");
+    }
+
+    /// The same of several arms, where the program is there.
+    fn check_all(&self, version: &[&str]) {
+        let is_there = Command::new(&self.program).args(version).output().is_ok_and(|o| o.status.success());
+        if is_there {
+            self.check("crx", &catalogued("fanuc-crx10ia-l"), 15, true);
+            self.check("oblique", &catalogued("oblique-6r"), 15, false);
+            self.check("one-slide", &read(ONE_SLIDE), 12, true);
+        }
+    }
+}
+
 /// Packages with the inverse model beside the forward one, as one workspace: two runs of cargo serve all of them.
 fn check_rust(arms: &[(&str, &Description, usize)]) {
     let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("elimination-rust");
@@ -232,6 +348,16 @@ fn c_finds_all_solutions_where_the_last_axis_is_parallel_to_the_first() {
 }
 
 #[test]
+fn python_finds_all_solutions() {
+    python().check_all(&["-c", "import numpy"]);
+}
+
+#[test]
+fn octave_finds_all_solutions() {
+    octave().check_all(&["--version"]);
+}
+
+#[test]
 fn rust_finds_all_solutions() {
     check_rust(&[
         ("crx", &catalogued("fanuc-crx10ia-l"), 15),
@@ -240,16 +366,14 @@ fn rust_finds_all_solutions() {
     ]);
 }
 
-/// What is generated in no other language, and what C does not serve, is said.
+/// What is generated in no other language, and what others do not serve, is said.
 #[test]
 fn what_is_not_generated_is_said() {
     let functions = [Wanted::Pose, Wanted::Inverse];
-    for language in [Language::Python, Language::Matlab, Language::Cuda] {
-        let found = generated(&catalogued("oblique-6r"), language, &functions);
-        let why = found.refused.expect("a reason");
-        assert!(found.inverse.is_none() && why.contains("in C, JavaScript and Rust"), "{why}");
-    }
-    for language in [Language::C, Language::JavaScript] {
+    let found = generated(&catalogued("oblique-6r"), Language::Cuda, &functions);
+    let why = found.refused.expect("a reason");
+    assert!(found.inverse.is_none() && why.contains("elimination is generated in C"), "{why}");
+    for language in [Language::C, Language::JavaScript, Language::Python, Language::Matlab] {
         let why = generated(&read(TWO_SLIDES), language, &functions).refused.expect("a reason");
         assert!(why.contains("at most one prismatic joint"), "{why}");
     }

@@ -25,8 +25,12 @@ fn generated_for(d: &Description, goal: Goal, given: Option<Vec<usize>>) -> Gene
 }
 
 fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::InverseOptions) -> Generated {
-    let options = PackageOptions {
-        language: Language::Python,
+    generate(d, &options(Language::Python, wanted, inverse)).expect("nothing is fixed")
+}
+
+fn options(language: Language, wanted: &[Wanted], inverse: inverse::InverseOptions) -> PackageOptions {
+    PackageOptions {
+        language,
         functions: wanted.to_vec(),
         inverse,
         precision: Precision::Double,
@@ -34,8 +38,7 @@ fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::InverseOption
         masses: None,
         loads: denavit::dynamics::Loads::default(),
         fixed: false,
-    };
-    generate(d, &options).expect("nothing is fixed")
+    }
 }
 
 /// Six random configurations and one a joint are in general position in all but one joint; where rounding decides how
@@ -74,8 +77,9 @@ fn what_is_part_of_the_closed_form_is_said() {
 }
 
 #[test]
-fn an_arm_in_general_position_is_refused() {
-    let found = generated("oblique-6r", Goal::Pose, None);
+fn an_arm_in_general_position_is_refused_in_cuda() {
+    let options = options(Language::Cuda, &[Wanted::Pose, Wanted::Inverse], Default::default());
+    let found = generate(&robot("oblique-6r"), &options).expect("nothing is fixed");
     assert!(found.inverse.is_none());
     assert!(found.refused.expect("a reason").starts_with("no closed form"));
     assert!(!found.files.is_empty(), "the forward model is there");

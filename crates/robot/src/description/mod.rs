@@ -29,6 +29,7 @@ mod same;
 mod sources;
 pub mod table;
 mod toolbox;
+mod srdf;
 mod tree;
 mod units;
 mod urdf;
@@ -54,6 +55,7 @@ pub use robot_file::{
 };
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};
+pub use srdf::{Group, NoEnds, read_srdf};
 pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table, write_tree_table};
 pub use toolbox::{Language, read_program};
 pub use tree::{

@@ -1,8 +1,8 @@
 //! Frames whose decimals are a rotation only up to rounding.
 
 use super::Description;
-use super::mjcf::{quaternion, rotation_of};
-use crate::geometry::{Rotation, Transform, Vector};
+use super::mjcf::rotation_of;
+use crate::geometry::{Rotation, Transform, Vector, quaternion};
 use crate::inverse::newton::nearest_rigid;
 use denavit_symbolic::{Expr, Rational};
 
@@ -37,7 +37,7 @@ fn nearest(rounded: &Rotation<Expr>) -> Option<(Rotation<Expr>, f64)> {
     let given = Transform::from_rotation_translation(rounded.map(number), Vector::zero());
     let (rigid, _) = nearest_rigid(&given);
     let parts = quaternion(&rigid.rotation).map(Rational::from_f64);
-    let [Some(w), Some(x), Some(y), Some(z)] = parts else { return None };
+    let [Some(x), Some(y), Some(z), Some(w)] = parts else { return None };
     let exact = rotation_of([&w, &x, &y, &z])?;
     let pairs = exact.rows().into_iter().flatten().zip(given.rotation.rows().into_iter().flatten());
     let off = pairs.map(|(a, b)| (number(a) - b).abs()).fold(0.0, f64::max);

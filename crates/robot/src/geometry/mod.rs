@@ -14,6 +14,7 @@ pub mod transform;
 pub mod vector;
 
 pub use body::{Body, NoBody, PARAMETERS};
+pub(crate) use orientation::quaternion;
 pub use orientation::{EulerSet, Orientation, OrientationError, OrientationSet};
 pub use rotation::{NotRigid, RIGID_TOLERANCE, Rotation};
 pub use transform::Transform;

@@ -383,7 +383,7 @@ fn euler_formulas(r: &Rotation<Expr>, set: EulerSet) -> [Expr; 3] {
 
 /// x, y, z, w with w ≥ 0 (Shepperd 1978): every row of 4qqᵀ, whose entries are sums of entries of R, is a
 /// multiple of q; the one with the largest diagonal entry is the best conditioned.
-fn quaternion(r: &Rotation<f64>) -> [f64; 4] {
+pub(crate) fn quaternion(r: &Rotation<f64>) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = r.rows();
     let rows = [
         [1.0 + xx - yy - zz, yx + xy, xz + zx, zy - yz],

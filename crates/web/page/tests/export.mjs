@@ -52,6 +52,7 @@ scenario("source code is a folder that tests itself, zipped", async (page) => {
   await page.getByRole("combobox", { name: "Language of the code" }).selectOption("c");
   await page.getByRole("button", { name: "Write the code" }).click();
   const other = decodeZip(await saved(page, "Save as zip", /-c\.zip$/));
+  for (const [name, text] of [...files, ...other]) assert.ok(text.length > 0 && !text.includes("\0"), `${name} is text`);
   assert.ok([...other.keys()].some((name) => name.endsWith(".h")));
   assert.equal(crc32(Buffer.from("123456789")), 0xcbf43926, "the check value of CRC-32");
 });

@@ -1,11 +1,20 @@
 
-/* Whether limits are limits: infinite ones stand for none. */
-static int answer_are_limits(const @name@_ik_limits *limits)
+/* Beyond this a value of a joint, divided by its unit, is none: turns are rounded there until the hand is elsewhere. */
+static const double answer_far = 1e6;
+
+/* Reads limits (NULL: those of the robot): what is beyond answer_far is none. 0 if they exclude all values. */
+static int answer_limits(const @name@_ik_limits *limits, @name@_ik_limits *own)
 {
+    const @name@_ik_limits *given = limits ? limits : &@name@_limits;
     for (int j = 0; j < ANSWER_JOINTS; j++) {
-        if (!(limits->lower[j] <= limits->upper[j])) {
+        const double far = answer_far * answer_unit[j];
+        const double lower = given->lower[j];
+        const double upper = given->upper[j];
+        if (!(lower <= upper && lower <= far && upper >= -far)) {
             return 0;
         }
+        own->lower[j] = lower >= -far ? lower : -HUGE_VAL;
+        own->upper[j] = upper <= far ? upper : HUGE_VAL;
     }
     return 1;
 }
@@ -25,7 +34,11 @@ static int answer_nearest_copy(const @name@_ik_limits *limits, int joint, double
             *value += period * ceil((lower - *value) / period);
         }
     }
-    return *value >= lower && *value <= upper;
+    if (!(*value >= lower && *value <= upper)) {
+        return 0;
+    }
+    *value = fmin(fmax(*value, limits->lower[joint]), limits->upper[joint]);
+    return 1;
 }
 
 /* What is known of the nearest configuration. */
@@ -61,6 +74,118 @@ static void answer_offer(
             }
         }
     }
+}
+
+/* Moves a configuration that has the pose, with the hand still, first until its joints are within the limits, then to where it is
+   nearest to the previous one there; joints at a limit stay while they would leave it. Offers what it comes by. */
+static NOINLINE void answer_settle(
+    double goal[4][4], const double *start@parameters_given@, int is_held, const double *previous,
+    const @name@_ik_limits *limits, answer_best *best)
+{
+    double q[ANSWER_JOINTS];
+    double size = 1.0;
+    for (int j = 0; j < ANSWER_JOINTS; j++) {
+        q[j] = start[j];
+        if (!answer_nearest_copy(limits, j, previous[j], &q[j])) {
+            const double middle = fmin(fmax(previous[j], limits->lower[j]), limits->upper[j]);
+            q[j] = middle + answer_unit[j] * answer_way(j, middle, q[j]);
+        }
+    }
+    for (int step = 0; step < 60 && size >= 1e-3; step++) {
+        double error[ANSWER_ROWS], seen[ANSWER_ROWS], way[ANSWER_JOINTS], motion[ANSWER_JOINTS];
+        double jacobian[ANSWER_ROWS][ANSWER_JOINTS];
+        double trial[ANSWER_JOINTS], ahead[ANSWER_JOINTS];
+        double outside[2] = {0.0, 0.0}, away[2] = {0.0, 0.0};
+        double largest = 0.0, gain = 1.0, by;
+        int is_changed = 1;
+        (void)answer_error(goal, q@parameters_passed@, is_held, error, jacobian);
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            const double inside = fmin(fmax(q[j], limits->lower[j]), limits->upper[j]);
+            outside[0] += fabs(inside - q[j]) / answer_unit[j];
+        }
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            const double inside = fmin(fmax(q[j], limits->lower[j]), limits->upper[j]);
+            const double wanted = fmin(fmax(previous[j], limits->lower[j]), limits->upper[j]);
+            way[j] = ((outside[0] > 1e-10 ? inside : wanted) - q[j]) / answer_unit[j];
+            away[0] += (wanted - q[j]) / answer_unit[j] * ((wanted - q[j]) / answer_unit[j]);
+            way[j] = is_held && answer_is_given[j] ? 0.0 : way[j];
+        }
+        while (is_changed) {
+            for (int i = 0; i < ANSWER_ROWS; i++) {
+                seen[i] = 0.0;
+                for (int j = 0; j < ANSWER_JOINTS; j++) {
+                    seen[i] += jacobian[i][j] * way[j];
+                }
+            }
+            answer_pull(jacobian, seen, 1e-9, motion);
+            is_changed = 0;
+            largest = 0.0;
+            for (int j = 0; j < ANSWER_JOINTS; j++) {
+                const double near = 1e-9 * answer_unit[j];
+                double column = 0.0;
+                motion[j] = way[j] - motion[j];
+                for (int i = 0; i < ANSWER_ROWS; i++) {
+                    column += fabs(jacobian[i][j]);
+                }
+                if ((column > 0.0 || way[j] < 0.0 || way[j] > 0.0)
+                    && ((motion[j] > 1e-9 && q[j] <= limits->upper[j] + near && q[j] >= limits->upper[j] - near)
+                        || (motion[j] < -1e-9 && q[j] >= limits->lower[j] - near && q[j] <= limits->lower[j] + near))) {
+                    /* It would leave its limits: it stays, and the others do what they can. */
+                    for (int i = 0; i < ANSWER_ROWS; i++) {
+                        jacobian[i][j] = 0.0;
+                    }
+                    way[j] = 0.0;
+                    is_changed = 1;
+                }
+                largest = fmax(largest, fabs(motion[j]));
+            }
+        }
+        if (!(largest > 1e-11)) {
+            break;
+        }
+        if (outside[0] > 1e-10) {
+            /* As far as what is outside comes inside, not just as far along as it is away. */
+            double whole = 0.0, part = 0.0;
+            for (int j = 0; j < ANSWER_JOINTS; j++) {
+                whole += way[j] * way[j];
+                part += way[j] * motion[j];
+            }
+            gain = fmin(whole / fmax(part, 0.01 * whole), 100.0);
+        }
+        by = size * fmin(gain, 0.4 / largest);
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            /* No farther than to the next limit. */
+            const double room = motion[j] > 0.0 ? limits->upper[j] - q[j] : q[j] - limits->lower[j];
+            const double need = fabs(motion[j]) * answer_unit[j];
+            if (room > 0.0 && by * need > room) {
+                by = room / need;
+            }
+        }
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            trial[j] = q[j] + by * answer_unit[j] * motion[j];
+        }
+        memcpy(ahead, trial, sizeof ahead);
+        if (answer_correct(goal, trial@parameters_passed@, is_held, 8) <= 1e-10
+            && answer_apart(trial, ahead) <= 0.5 * by * largest) {
+            for (int j = 0; j < ANSWER_JOINTS; j++) {
+                const double inside = fmin(fmax(trial[j], limits->lower[j]), limits->upper[j]);
+                const double wanted = fmin(fmax(previous[j], limits->lower[j]), limits->upper[j]);
+                outside[1] += fabs(inside - trial[j]) / answer_unit[j];
+                away[1] += (wanted - trial[j]) / answer_unit[j] * ((wanted - trial[j]) / answer_unit[j]);
+            }
+            if (outside[0] > 1e-10 ? outside[1] < outside[0]
+                                   : away[1] < away[0] && outside[1] <= 0.1 * by * largest) {
+                memcpy(q, trial, sizeof trial);
+                size = fmin(1.0, 2.0 * size);
+                if (outside[1] <= 1e-9) {
+                    answer_offer(limits, previous, q, best);
+                }
+                continue;
+            }
+        }
+        size *= 0.25;
+    }
+    answer_offer(limits, previous, q, best);
 }
 
 /* Descends from a configuration to where the hand comes close to the goal, within the limits. */
@@ -115,26 +240,34 @@ static NOINLINE void answer_missed(
     const @name@_ik_limits *limits,@parameters_declaration@
     @name@_ik_choice *choice)
 {
-    double goal[4][4];
+    double goal[4][4], from[ANSWER_JOINTS];
     answer_best best;
+    @name@_ik_limits own;
     @name@_ik_status status;
-    const @name@_ik_limits *own = limits ? limits : &@name@_limits;
     best.distance[0] = HUGE_VAL;
     best.distance[1] = HUGE_VAL;
+    /* The caller's previous configuration may be the q that is written. */
+    memcpy(from, previous, sizeof from);
+    memmove(choice->q, from, sizeof choice->q);
     choice->is_found = 0;
-    choice->distance = 0.0;
+    choice->distance = HUGE_VAL;
     choice->off = 0.0;
-    choice->missed_shift = 0.0;
-    choice->missed_turn = 0.0;
-    memcpy(choice->q, previous, sizeof choice->q);
-    status = answer_goal(pose, goal, &choice->off);
-    if (!answer_is_finite(previous, ANSWER_JOINTS) || !answer_are_limits(own)) {
+    choice->missed_shift = HUGE_VAL;
+    choice->missed_turn = HUGE_VAL;
+    status = answer_goal(pose, goal, &choice->off);@parameters_check@
+    if (!answer_limits(limits, &own)) {
         status = @NAME@_IK_NOT_FINITE;
+    }
+    for (int j = 0; j < ANSWER_JOINTS; j++) {
+        if (!(fabs(from[j]) <= answer_far * answer_unit[j])) {
+            status = @NAME@_IK_NOT_FINITE;
+        }
     }
     if (status != @NAME@_IK_SOLVED) {
         return status;
     }
-    status = answer_search(pose, goal, previous, own@parameters_passed@, &best);
+    choice->distance = 0.0;
+    status = answer_search(pose, goal, from, &own@parameters_passed@, &best);
     if (best.distance[0] < HUGE_VAL) {
         choice->is_found = 1;
         choice->distance = best.distance[0];
@@ -144,14 +277,36 @@ static NOINLINE void answer_missed(
         memcpy(choice->q, best.q[1], sizeof choice->q);
         status = @NAME@_IK_OUTSIDE_LIMITS;
     } else {
-        answer_approach(goal, own, choice->q@parameters_passed@);
+        answer_approach(goal, &own, choice->q@parameters_passed@);
         for (int j = 0; j < ANSWER_JOINTS; j++) {
-            const double by = fabs(choice->q[j] - previous[j]) / answer_unit[j];
+            const double by = fabs(choice->q[j] - from[j]) / answer_unit[j];
             choice->distance = fmax(choice->distance, by);
         }
     }
     answer_missed(goal, choice->q@parameters_passed@, &choice->missed_shift, &choice->missed_turn);
     return status;
+}
+
+/* Moves a member of a family until it is within the limits; 0 if that does not succeed. */
+static NOINLINE int answer_member_within(
+    double pose[4][4], @name@_ik_solution *member, const @name@_ik_limits *limits@parameters_given@)
+{
+    double goal[4][4], off;
+    answer_best best;
+    best.distance[0] = HUGE_VAL;
+    best.distance[1] = HUGE_VAL;
+    if (answer_goal(pose, goal, &off) != @NAME@_IK_SOLVED) {
+        return 0;
+    }
+    for (int start = 0; start < 3 && !(best.distance[0] < HUGE_VAL); start++) {
+        answer_aside(goal, member, start@parameters_passed@, best.q[1]);
+        answer_settle(goal, best.q[1]@parameters_passed@, 1, member->q, limits, &best);
+    }
+    if (!(best.distance[0] < HUGE_VAL)) {
+        return 0;
+    }
+    memcpy(member->q, best.q[0], sizeof member->q);
+    return 1;
 }
 
 /* The first and the last copy of a value within the limits, as counts of whole turns; 0 if there is none. */
@@ -186,44 +341,59 @@ static int answer_copies_within(
     int *count)
 {
     @name@_ik_result found;
-    const @name@_ik_limits *own = limits ? limits : &@name@_limits;
-    const @name@_ik_status status = answer_are_limits(own)
+    @name@_ik_limits own;
+    const @name@_ik_status status = answer_limits(limits, &own)
         ? @name@_ik(pose@given_passed@@parameters_passed@, &found)
         : @NAME@_IK_NOT_FINITE;
+    double all = 0.0;
     *count = 0;
     if (status > @NAME@_IK_UNDECIDED) {
         return status;
     }
     for (int s = 0; s < found.count; s++) {
-        for (int copy = 0; copy < ANSWER_COPIES; copy++) {
-            double base[ANSWER_JOINTS], first[ANSWER_JOINTS], last[ANSWER_JOINTS], turns[ANSWER_JOINTS];
-            int is_more = 1;
-            for (int j = 0; j < ANSWER_JOINTS; j++) {
-                base[j] = found.solutions[s].q[j] + answer_copies[copy][j];
-                is_more = is_more && answer_copies_within(own, j, base[j], &first[j], &last[j]);
-            }
-            if (is_more) {
-                memcpy(turns, first, sizeof turns);
-            }
-            while (is_more) {
-                if (*count < room) {
-                    for (int j = 0; j < ANSWER_JOINTS; j++) {
-                        q[*count][j] = base[j] + turns[j] * answer_window[j];
+        const double before = all;
+        for (int round = 0; round < 2; round++) {
+            for (int copy = 0; copy < ANSWER_COPIES; copy++) {
+                double base[ANSWER_JOINTS], turns[ANSWER_JOINTS];
+                double first[ANSWER_JOINTS] = {0.0}, last[ANSWER_JOINTS] = {0.0};
+                double copies = 1.0;
+                int is_more = 1;
+                for (int j = 0; j < ANSWER_JOINTS; j++) {
+                    base[j] = found.solutions[s].q[j] + answer_copies[copy][j];
+                    is_more = is_more && answer_copies_within(&own, j, base[j], &first[j], &last[j]);
+                    copies *= is_more ? last[j] - first[j] + 1.0 : 0.0;
+                }
+                all += copies;
+                if (is_more) {
+                    memcpy(turns, first, sizeof turns);
+                }
+                while (is_more && *count < room) {
+                    int j = 0;
+                    for (int k = 0; k < ANSWER_JOINTS; k++) {
+                        const double value = base[k] + turns[k] * answer_window[k];
+                        q[*count][k] = fmin(fmax(value, own.lower[k]), own.upper[k]);
+                    }
+                    (*count)++;
+                    /* The next combination. */
+                    while (j < ANSWER_JOINTS && turns[j] >= last[j]) {
+                        turns[j] = first[j];
+                        j++;
+                    }
+                    is_more = j < ANSWER_JOINTS;
+                    if (is_more) {
+                        turns[j] += 1.0;
                     }
                 }
-                (*count)++;
-                /* The next combination. */
-                int j = 0;
-                while (j < ANSWER_JOINTS && turns[j] >= last[j]) {
-                    turns[j] = first[j];
-                    j++;
-                }
-                is_more = j < ANSWER_JOINTS && *count < 1000000;
-                if (is_more) {
-                    turns[j] += 1.0;
-                }
+            }
+            if (round == 0 && (all > before || found.solutions[s].dimension == 0)) {
+                break;
+            }
+            /* Another member of the family may be within the limits. */
+            if (round == 0 && !answer_member_within(pose, &found.solutions[s], &own@parameters_passed@)) {
+                break;
             }
         }
     }
-    return *count == 0 && found.count > 0 ? @NAME@_IK_OUTSIDE_LIMITS : status;
+    *count = all < 2147483647.0 ? (int)all : 2147483647;
+    return all <= 0.0 && found.count > 0 ? @NAME@_IK_OUTSIDE_LIMITS : status;
 }

@@ -16,6 +16,9 @@ static NOINLINE @name@_ik_status answer_search(
     if (answer_correct(goal, q@parameters_passed@, 0, 20) <= 1e-10) {
         (void)answer_slide(goal, q@parameters_passed@, 0, previous);
         answer_offer(own, previous, q, best);
+        if (!(best->distance[0] < HUGE_VAL)) {
+            answer_settle(goal, q@parameters_passed@, 0, previous, own, best);
+        }
         is_reached = 1;
     }
     for (int sample = 0; sample < ANSWER_SAMPLES && !(best->distance[0] <= 0.1); sample++) {
@@ -43,8 +46,30 @@ static NOINLINE @name@_ik_status answer_search(
         }
     }
     for (int k = 0; k < starts; k++) {
-        (void)answer_slide(goal, start[k]@parameters_passed@, 0, previous);
-        answer_offer(own, previous, start[k], best);
+        double q_k[ANSWER_JOINTS];
+        const double before = best->distance[0];
+        memcpy(q_k, start[k], sizeof q_k);
+        (void)answer_slide(goal, q_k@parameters_passed@, 0, previous);
+        answer_offer(own, previous, q_k, best);
+        /* Where that is not within the limits, or no nearer: from the start once more, within them. */
+        if (!(best->distance[0] < before)) {
+            answer_settle(goal, start[k]@parameters_passed@, 0, previous, own, best);
+        }
+    }
+    /* By descent from configurations within the limits. */
+    for (int k = 0; k < ANSWER_DESCENTS && !(best->distance[0] < HUGE_VAL); k++) {
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            const double half = answer_period[j] > 0.0 ? 0.5 * answer_period[j] : answer_size;
+            const double lower = fmax(own->lower[j], fmin(previous[j], own->upper[j]) - half);
+            const double upper = fmin(own->upper[j], fmax(previous[j], own->lower[j]) + half);
+            const double x = k * (0.6180339887498949 + 0.1 * j);
+            q[j] = k == 0 ? previous[j] : lower + (upper - lower) * (x - floor(x));
+        }
+        answer_approach(goal, own, q@parameters_passed@);
+        if (answer_correct(goal, q@parameters_passed@, 0, 20) <= 1e-10) {
+            answer_settle(goal, q@parameters_passed@, 0, previous, own, best);
+            is_reached = 1;
+        }
     }
     return is_reached ? @NAME@_IK_SOLVED : @NAME@_IK_UNDECIDED;
 }

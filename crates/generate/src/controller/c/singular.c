@@ -188,6 +188,20 @@ static int answer_family(
     return count;
 }
 
+/* A member of a family: the one that is known (0), or another, some way along its motion or against it (1, 2). */
+static void answer_aside(
+    double goal[4][4], const @name@_ik_solution *family, int start@parameters_given@, double member[ANSWER_JOINTS])
+{
+    memcpy(member, family->q, sizeof family->q);
+    if (start > 0) {
+        double aside[ANSWER_JOINTS];
+        for (int j = 0; j < ANSWER_JOINTS; j++) {
+            aside[j] = member[j] + (start == 1 ? 2.0 : -2.0) * answer_unit[j] * family->motion[j];
+        }
+        (void)answer_slide(goal, member@parameters_passed@, 1, aside);
+    }
+}
+
 /* Whether a configuration is a member of the family of a solution. */
 static int answer_is_member(
     double goal[4][4], const @name@_ik_solution *family, const double *q@parameters_given@)
@@ -195,14 +209,7 @@ static int answer_is_member(
     /* Half a turn away the shorter way of each joint need not be that of the family: start from elsewhere, too. */
     for (int start = 0; start < 3; start++) {
         double member[ANSWER_JOINTS];
-        memcpy(member, family->q, sizeof member);
-        if (start > 0) {
-            double aside[ANSWER_JOINTS];
-            for (int j = 0; j < ANSWER_JOINTS; j++) {
-                aside[j] = member[j] + (start == 1 ? 2.0 : -2.0) * answer_unit[j] * family->motion[j];
-            }
-            (void)answer_slide(goal, member@parameters_passed@, 1, aside);
-        }
+        answer_aside(goal, family, start@parameters_passed@, member);
         if (answer_slide(goal, member@parameters_passed@, 1, q) <= 1e-4) {
             return 1;
         }
@@ -276,7 +283,7 @@ static NOINLINE void answer_probe(
         found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 40);
         found.branch = -1;
         found.multiplicity = 1;
-        if (found.residual <= 1e-10) {
+        if (found.residual <= 1e-12) {
             answer_add(goal@parameters_passed@, result, &found);
         }
     }
@@ -298,7 +305,7 @@ static NOINLINE void answer_gather(
         found.multiplicity = 1;
         found.branch = -1;
         found.dimension = 0;
-        if (found.residual <= 1e-10) {
+        if (found.residual <= 1e-12) {
             answer_add(goal@parameters_passed@, result, &found);
         }
     }
@@ -368,7 +375,7 @@ static NOINLINE @name@_ik_status answer_singular(
     @name@_ik_status status;
     result->count = 0;
     result->off = 0.0;
-    status = answer_goal(pose, goal, &result->off);@given_check@
+    status = answer_goal(pose, goal, &result->off);@given_check@@parameters_check@
     if (status != @NAME@_IK_SOLVED) {
         return status;
     }

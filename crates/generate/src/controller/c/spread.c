@@ -4,7 +4,9 @@ enum {
     ANSWER_GIVEN = @given_count@,
     ANSWER_SAMPLES = @samples@,
     /* Solutions from which the arm is moved with its hand still. */
-    ANSWER_STARTS = 6
+    ANSWER_STARTS = 6,
+    /* Configurations from which the hand descends to the pose where nothing else is found within the limits. */
+    ANSWER_DESCENTS = 24
 };
 
 /* Values of the given joints: the previous ones first, then spread over what the limits allow. */

@@ -334,7 +334,7 @@ function [solutions, is_all] = listed(a, goal, given)
 % What @name@_solve lists, and whether that is all.
 parameters = a.parameters; %#ok<NASGU>
 [q, info] = @name@_solve([@flatten@]@solve_parameters@);
-solutions = solutions_of(q, info.residual, info.multiplicity, info.branch);
+solutions = solutions_of(q, info.residual, info.multiplicity, @branch@);
 is_all = strcmp(info.certificate, 'complete');
 end
 
@@ -358,7 +358,7 @@ function known = led(a, goal, known, starts, steps)
 % Adds the solutions to which Newton's method leads from configurations.
 if ~isempty(starts)
     [q, missed] = corrected(a, goal, starts, true, steps);
-    is_good = missed <= 1e-10;
+    is_good = missed <= 1e-12;
     count = sum(is_good);
     found = solutions_of(q(is_good, :), missed(is_good), ones(count, 1), -ones(count, 1));
     known = add(a, goal, known, found);

@@ -19,7 +19,7 @@ function result = @name@_ik(pose@given_local@@parameters_given@)
 %   RESULT.q          a solution a row (rad, m)
 %   RESULT.solutions  for each a struct: q, residual (how far the forward model is from the pose there: turn,
 %                     and shift divided by the arm's size), multiplicity (how many branches come together
-%                     in it), branch (label branch + 1 of @NAME@_SOLVE is its; -1 if it is none's), dimension
+%                     in it), branch (@branch_about@), dimension
 %                     (in how many directions the joints can move from here with the hand still), motion (such
 %                     a direction, a unit vector, m of joints that slide divided by the arm's size)
 %@parameters_about@

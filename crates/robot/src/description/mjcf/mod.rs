@@ -16,7 +16,6 @@ mod turns;
 mod write;
 
 pub(super) use turns::matrix as rotation_of;
-pub(super) use write::quaternion;
 
 pub use write::{refused_masses, write_mjcf};
 

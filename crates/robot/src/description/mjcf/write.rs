@@ -7,7 +7,7 @@ use crate::description::JointKind;
 use crate::description::robot_file::exact_rpy;
 use crate::description::tree::{Joint, Mass, Mechanism, Solids, joint_names};
 use crate::description::xml::{escaped, number};
-use crate::geometry::{Rotation, Transform, Vector};
+use crate::geometry::{Rotation, Transform, Vector, quaternion};
 use denavit_symbolic::{Expr, Rational};
 use std::fmt::Write;
 
@@ -200,31 +200,11 @@ fn placed(x: &Transform<Expr>) -> String {
     match exact_rpy(&x.rotation) {
         Some(rpy) => format!("{pos} euler=\"{}\"", list(rpy)),
         None => {
-            let q = quaternion(&x.rotation.map(value))
-                .map(|c| number(Rational::from_f64(c).map_or(Expr::int(0), Expr::from)));
+            let [x, y, z, w] = quaternion(&x.rotation.map(value));
+            let q = [w, x, y, z].map(|c| number(Rational::from_f64(c).map_or(Expr::int(0), Expr::from)));
             format!("{pos} quat=\"{}\"", q.join(" "))
         }
     }
-}
-
-/// The unit quaternion of a rotation, w first, in doubles (Shepperd 1978: from its largest component).
-pub(in crate::description) fn quaternion(r: &Rotation<f64>) -> [f64; 4] {
-    let m = r.rows();
-    let trace = m[0][0] + m[1][1] + m[2][2];
-    let largest = [trace, m[0][0], m[1][1], m[2][2]];
-    let k = (0..4).fold(0, |best, k| if largest[k] > largest[best] { k } else { best });
-    let q = if k == 0 {
-        [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]
-    } else {
-        let [i, j, l] = [0, 1, 2].map(|n| (k - 1 + n) % 3);
-        let mut q = [m[l][j] - m[j][l], 0.0, 0.0, 0.0];
-        q[i + 1] = 1.0 + m[i][i] - m[j][j] - m[l][l];
-        q[j + 1] = m[j][i] + m[i][j];
-        q[l + 1] = m[l][i] + m[i][l];
-        q
-    };
-    let size = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    q.map(|x| x / size)
 }
 
 /// A mass that a body can have; MuJoCo refuses others.

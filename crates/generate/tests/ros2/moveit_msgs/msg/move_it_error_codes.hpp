@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+
+namespace moveit_msgs {
+namespace msg {
+
+struct MoveItErrorCodes {
+    static constexpr std::int32_t SUCCESS = 1;
+    static constexpr std::int32_t GOAL_IN_COLLISION = -12;
+    static constexpr std::int32_t NO_IK_SOLUTION = -31;
+    std::int32_t val = 0;
+};
+
+} // namespace msg
+} // namespace moveit_msgs
