@@ -67,8 +67,8 @@ mod weights;
 mod whole;
 
 pub use facts::{
-    About, Change, Condition, Dynamic, Instead, Jacobian, Meaning, Placement, Remark, Sense, ShortRow,
-    SlipKind, TableCell, Unproved, Zeros,
+    About, Change, Condition, Dynamic, Instead, Jacobian, Meaning, Placement, ReadWith, Remark, Sense,
+    ShortRow, SlipKind, Spoken, TableCell, Unproved, Whereabouts, Zeros,
 };
 pub use formula::Formula;
 pub use note::{Note, Noted, Unread, Unreadable};
@@ -226,7 +226,11 @@ pub fn check(
         let finding = |at: &(usize, usize)| Some(claims.get(at.0)?.entries.get(at.1)?.finding.standing());
         c.turns_right.iter().any(|at| matches!(finding(at), Some(Standing::Wrong | Standing::Carried)))
     });
-    let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims);
+    if !of_dynamics.is_empty() {
+        let measures = document.statements.iter().filter(|s| dynamics::is_measure(text, s));
+        walked.taken.extend(measures.map(|s| s.span.clone()));
+    }
+    let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims, &mut notes);
     let of_arm = reaches::judged(text, &plan, &walked, &claims);
     claims.extend(of_arm);
     let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
@@ -255,8 +259,12 @@ fn dynamics_judged(
     plan: &Plan,
     walked: &mut Walked,
     claims: &mut Vec<Claim>,
+    notes: &mut Notes,
 ) -> Vec<Unjudged> {
-    let judged = dynamics::judged(text, taken, plan, claims.len());
+    let judged = dynamics::judged(text, taken, plan, claims);
+    for (span, read) in judged.read_with {
+        notes.warning(span, Noted::ReadWith(read));
+    }
     walked.taken.extend(taken.iter().map(|s| s.span.clone()));
     claims.extend(judged.claims);
     judged.unjudged

@@ -1,6 +1,6 @@
 //! What is worth saying of a document beside its verdicts, and why parts of it are not read.
 
-use super::facts::{Sense, ShortRow};
+use super::facts::{ReadWith, Sense, ShortRow};
 use super::inverse::Composed;
 use denavit::description::{Convention, Diagnostic, NotSet, Severity};
 use denavit_symbolic::parse::ParseError;
@@ -72,6 +72,8 @@ pub enum Noted {
     NotRead(Unreadable),
     /// What the formulas of all joints yield one after another.
     Together(Composed),
+    /// Masses and gravity are read so that most formulas of dynamics are right, and the words do not say that they are so.
+    ReadWith(Vec<ReadWith>),
 }
 
 /// A part of the document that could not be read.

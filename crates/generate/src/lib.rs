@@ -254,8 +254,8 @@ impl Generated {
     }
 }
 
-/// Generates source code for a robot. An inverse function that has no closed form is by elimination in C, Rust,
-/// Python, JavaScript, MATLAB and behind IKFast's interface, and left out in CUDA. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
+/// Generates source code for a robot. An inverse function that has no closed form is by elimination, in every language but CUDA, where
+/// it is left out. Where `fk` and `jacobian` are both asked for, `jacobian_fk` comes with
 /// them. IKFast's interface has `fk` and `ik`, both of them, with the values of parameters in them.
 ///
 /// # Errors

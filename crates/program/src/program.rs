@@ -2,6 +2,7 @@
 
 use crate::domain::Domain;
 use crate::graph::{Count, Graph, Op, Stage, Value};
+use crate::rebuild::names_of;
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -100,6 +101,24 @@ impl Program {
             outputs,
             names,
         }
+    }
+
+    /// The same with other names for the values and results that are called like one of `others`; inputs keep theirs. A value with a number
+    /// gets another number, a result underscores behind it.
+    #[must_use]
+    pub fn named_apart(mut self, others: &FxHashSet<String>) -> Self {
+        let mut used = names_of(&self);
+        used.extend(others.iter().cloned());
+        for (name, _) in self.outputs.iter_mut().filter(|o| others.contains(&o.0)) {
+            while !used.insert(name.clone()) {
+                name.push('_');
+            }
+        }
+        for name in self.names.iter_mut().flatten().filter(|name| others.contains(*name)) {
+            let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+            *name = numbered(letters, &mut 0, &mut used);
+        }
+        self
     }
 
     /// A program whose operations are given as they are; an input that is not a variable is a parameter.

@@ -186,6 +186,7 @@ fn limits(d: &Description, manner: &Manner) -> Result<KnownLimits, Trouble> {
             let arm = Dynamics::numeric(d).map_err(|why| match why {
                 NoNumbers::NoMasses => Trouble::new(Kind::NoMasses, format!("{}: {why}", d.name)),
                 NoNumbers::Missing(missing) => Trouble::missing(missing),
+                NoNumbers::NegativeMass(..) => Trouble::new(Kind::Description, format!("{}: {why}", d.name)),
             })?;
             let limits = TorqueLimits::symmetric(arm, torques);
             Some(limits.map_err(|why| Trouble::new(Kind::Usage, format!("torque: {why}")))?)

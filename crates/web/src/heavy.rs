@@ -23,9 +23,9 @@ impl Heavy {
             true => Dynamics::numeric(valued),
             false => Dynamics::numeric(&drawn.as_bars(valued)),
         };
-        let why = |why| match why {
+        let why = |why: NoNumbers| match why {
             NoNumbers::NoMasses => "it says nothing of masses".into(),
-            NoNumbers::Missing(missing) => missing.to_string(),
+            NoNumbers::Missing(_) | NoNumbers::NegativeMass(..) => why.to_string(),
         };
         Ok(Heavy { arm: arm.map_err(why)?, is_known })
     }

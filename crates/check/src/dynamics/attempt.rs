@@ -9,6 +9,7 @@ use super::statements::{Read, statements};
 use super::told::{Told, told};
 use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
 use super::words::{Role, names, role, words};
+use crate::facts::Spoken;
 use crate::subject::Subject;
 use denavit::description::JointKind;
 use denavit_reading::document::Statement;
@@ -29,8 +30,10 @@ pub(super) struct Attempt {
     pub tests: Vec<Test>,
     pub vote: Vote,
     pub candidates: Candidates,
+    /// What names stand for.
+    pub roles: BTreeMap<Symbol, Role>,
     /// The arm with symbols for all numbers.
-    model: Rc<Model>,
+    pub model: Rc<Model>,
     symbols: Rc<Symbols>,
     pub gravities: Vec<[Expr; 3]>,
     /// The bodies are the robot's own.
@@ -213,10 +216,11 @@ fn attempted(
     };
     let meaning = |s: Symbol| measured(given.get(&s).copied().unwrap_or(s.into()));
     let all_bodies = |told: &Told| -> Vec<Vec<Numbers>> {
+        let roles = &as_told(roles, told, n);
         let of = |(k, &row): (usize, &usize)| match is_given {
             true => vec![given_numbers(&d.rows[row])],
             false => {
-                let (all, is_cut) = bodies(d, row, k, k + 1 == n, roles, &meaning, told.inertia);
+                let (all, is_cut) = bodies(d, row, k, k + 1 == n, roles, &meaning, told);
                 if is_cut {
                     voter.bounds.is_cut.set(true);
                 }
@@ -227,7 +231,19 @@ fn attempted(
     };
     let state = &voter.model.state;
     let candidates = Candidates::new(all_bodies(&Told::default()), state);
-    let strict = told.inertia.is_some().then(|| Candidates::new(all_bodies(told), state));
+    let mut told = told.clone();
+    if has_inertias(roles) {
+        told.links.inertias.clear();
+    }
+    let told = &told;
+    let spoken = if is_given { vec![] } else { spoken(told, roles) };
+    let strict = (!spoken.is_empty()).then(|| Candidates::new(all_bodies(told), state));
+    // Those of both, the first as they are numbered there.
+    let mut known = candidates.bodies.clone();
+    for (all, more) in known.iter_mut().zip(strict.iter().flat_map(|s| &s.bodies)) {
+        let more: Vec<Numbers> = more.iter().filter(|b| !all.contains(b)).copied().collect();
+        all.extend(more);
+    }
     let mut tests: Vec<Test> = vec![];
     let mut test_of_piece = vec![None; read.pieces.len()];
     for (k, piece) in read.pieces.iter().enumerate() {
@@ -249,23 +265,37 @@ fn attempted(
     };
     let masses: BTreeSet<(Symbol, usize)> =
         tests.iter().flat_map(|t| t.value.symbols()).filter_map(of_link).collect();
-    let is_told = |s: &Symbol| match roles.get(s) {
-        Some(Role::Gravity) => told.gravity.is_some(),
-        Some(Role::Inertia(_) | Role::About(..)) => told.inertia.is_some(),
-        _ => false,
+    let touches = |of: Spoken, test: &Test| {
+        let is_told = |s: &Symbol| match (of, roles.get(s)) {
+            (Spoken::Gravity, Some(Role::Gravity)) => true,
+            (Spoken::Inertias, Some(Role::Inertia(_) | Role::About(..))) => true,
+            (Spoken::Shape, Some(Role::Inertia(_) | Role::About(..))) => true,
+            (Spoken::Shape, Some(Role::Mass(_))) => told.links.place.is_some(),
+            (Spoken::Centres, Some(Role::Length(_))) => true,
+            (Spoken::Links, _) => told.links.links.contains_key(&*s.name()),
+            _ => false,
+        };
+        test.value.symbols().iter().any(is_told)
     };
-    let tells = tests.iter().map(|t| t.value.symbols().iter().any(is_told)).collect();
+    let of_aspect = |of: Spoken| all_bodies(&told.only(of));
     let ways = Ways {
         voter,
         candidates: &candidates,
+        known: &known,
         strict: strict.as_ref(),
         gravities: &gravities,
         told: count,
         masses,
-        tells,
+        spoken,
+        of_aspect: &of_aspect,
+        touches: &touches,
     };
     let (vote, tests) = ways.styled(tests, &mut read, &test_of_piece)?;
     let rows = rows.to_vec();
+    let candidates = match strict {
+        Some(_) => Candidates::new(known, state),
+        None => candidates,
+    };
     Some(Attempt {
         coordinates,
         read,
@@ -274,6 +304,7 @@ fn attempted(
         tests,
         vote,
         candidates,
+        roles: roles.clone(),
         model: Rc::clone(voter.model),
         symbols: Rc::clone(voter.symbols),
         gravities,
@@ -283,6 +314,48 @@ fn attempted(
         is_measured: !measures.is_empty(),
         agreed: None,
     })
+}
+
+/// What words say of the bodies of a document whose names have these roles.
+fn spoken(told: &Told, roles: &BTreeMap<Symbol, Role>) -> Vec<Spoken> {
+    let all = [
+        (Spoken::Shape, told.links.shape.is_some() || told.links.place.is_some()),
+        (Spoken::Centres, told.links.has_from()),
+        (Spoken::Inertias, told.inertia.is_some()),
+        (Spoken::LeftOut, !told.links.inertias.is_empty()),
+        (Spoken::Links, told.links.links.keys().any(|name| roles.contains_key(&Symbol::new(name)))),
+    ];
+    all.into_iter().filter(|(_, is_said)| *is_said).map(|(of, _)| of).collect()
+}
+
+fn has_inertias(roles: &BTreeMap<Symbol, Role>) -> bool {
+    roles.values().any(|r| matches!(r, Role::Inertia(_) | Role::About(..) | Role::Ten(..)))
+}
+
+/// What names stand for as words say it: of other links than their numbers say, and inertias that no formula has.
+fn as_told(roles: &BTreeMap<Symbol, Role>, told: &Told, n: usize) -> BTreeMap<Symbol, Role> {
+    let mut all = roles.clone();
+    for (name, &link) in told.links.links.iter().filter(|(_, link)| **link < n) {
+        if let Some(role) = all.get_mut(&Symbol::new(name)) {
+            *role = match *role {
+                Role::Length(Some(_)) => Role::Length(Some(link)),
+                Role::Inertia(Some(_)) => Role::Inertia(Some(link)),
+                Role::About(_, axis) => Role::About(link, axis),
+                other => other,
+            };
+        }
+    }
+    for (name, link) in &told.links.inertias {
+        let links = link.map_or(0..n, |k| k..(k + 1).min(n));
+        all.extend(links.map(|k| (numbered(name, k), Role::Inertia(Some(k)))));
+    }
+    all
+}
+
+/// `I_i` of link 1, from 0, is `I_2`.
+fn numbered(name: &str, link: usize) -> Symbol {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, 'i' | 'j' | 'k'));
+    Symbol::new(&format!("{letters}{}", link + 1))
 }
 
 /// The numbers of a link that the robot's own file gives.
@@ -296,14 +369,20 @@ fn given_numbers(row: &denavit::description::Row) -> Numbers {
 struct Ways<'a> {
     voter: &'a Voter<'a>,
     candidates: &'a Candidates,
+    /// All bodies that a reading may have.
+    known: &'a [Vec<Numbers>],
     strict: Option<&'a Candidates>,
     gravities: &'a [[Expr; 3]],
     /// So many of them, the first, are those that are told.
     told: usize,
     /// The masses that formulas have, and their links.
     masses: BTreeSet<(Symbol, usize)>,
-    /// Of each test, whether it has something of which the words tell.
-    tells: Vec<bool>,
+    /// What the words tell of bodies.
+    spoken: Vec<Spoken>,
+    /// The bodies that each link may have by one of these alone.
+    of_aspect: &'a dyn Fn(Spoken) -> Vec<Vec<Numbers>>,
+    /// Whether a test has something of which the words tell so.
+    touches: &'a dyn Fn(Spoken, &Test) -> bool,
 }
 
 impl Ways<'_> {
@@ -319,7 +398,7 @@ impl Ways<'_> {
             for reading in &mut vote.best {
                 for (k, number) in reading.bodies.iter_mut().enumerate() {
                     let own = told.bodies[k][*number];
-                    *number = self.candidates.bodies[k].iter().position(|b| *b == own).unwrap_or(0);
+                    *number = self.known[k].iter().position(|b| *b == own).unwrap_or(0);
                 }
             }
             vote
@@ -329,10 +408,14 @@ impl Ways<'_> {
         match (strict, any) {
             (Some(strict), Some(any)) if strict.score() < any.score() => {
                 // Against the words nothing is right of which they tell.
+                let against = self.against(&any);
                 let mut told = any.best[0].clone();
-                told.right.iter_mut().zip(&self.tells).for_each(|(right, tells)| *right &= !tells);
+                for (right, test) in told.right.iter_mut().zip(tests) {
+                    *right &= !against.iter().any(|of| (self.touches)(*of, test));
+                }
                 // What the words tell comes first: a slip is one beside that.
                 let mut both = strict;
+                both.against = against;
                 both.is_many |= any.is_many;
                 both.best.extend(any.best);
                 both.best.push(told);
@@ -343,12 +426,37 @@ impl Ways<'_> {
         }
     }
 
+    /// What the words tell that no reading follows in which most is right; all that they tell where one follows each.
+    fn against(&self, any: &Vote) -> Vec<Spoken> {
+        let state = &self.voter.model.state;
+        let of_bodies = self.spoken.iter().filter(|of| {
+            let bodies = (self.of_aspect)(**of);
+            let follows = |reading: &Reading| {
+                reading.bodies.iter().enumerate().all(|(k, number)| {
+                    let own = &self.known[k][*number];
+                    bodies[k].iter().any(|b| any.is_same(reading, k, own, b, state))
+                })
+            };
+            !any.best.iter().any(follows)
+        });
+        let mut found: Vec<Spoken> = of_bodies.copied().collect();
+        let is_told = self.told < self.gravities.len();
+        if is_told && any.best.iter().all(|reading| reading.gravity >= self.told) {
+            found.insert(0, Spoken::Gravity);
+        }
+        if found.is_empty() {
+            found.extend(is_told.then_some(Spoken::Gravity));
+            found.extend(&self.spoken);
+        }
+        found
+    }
+
     /// A mass that formulas have has an effect, where that is so in a reading that is as good.
     fn effective(&self, mut vote: Vote) -> Vote {
         let state = &self.voter.model.state;
         let has = |reading: &Reading| {
             self.masses.iter().all(|&(symbol, k)| {
-                vote.has_effect(reading, k, &self.candidates.bodies[k][reading.bodies[k]], symbol, state)
+                vote.has_effect(reading, k, &self.known[k][reading.bodies[k]], symbol, state)
             })
         };
         let effects: Vec<bool> = vote.best.iter().map(has).collect();

@@ -1,8 +1,9 @@
 //! What the mass of a link may look like: where its centre is, and about which point its inertia is meant, in the symbols that the
 //! document has for them. The first are the more usual ones.
 
+use super::described::{At, Shape, Start};
 use super::model::{Numbers, Rotor, numbers};
-use super::told::Point;
+use super::told::{Point, Told};
 use super::words::Role;
 use denavit::description::{Description, JointKind};
 use denavit::geometry::{Body, Transform, Vector};
@@ -112,8 +113,8 @@ fn link(d: &Description, row: &denavit::description::Row) -> Transform<Expr> {
     screw(x, z)
 }
 
-/// The places of a link's centre of mass.
-fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
+/// The places of a link's centre of mass; a length that is measured from one of its ends is so `from` there alone.
+fn places(d: &Description, row: usize, lengths: &[Expr], from: Option<Start>) -> Vec<Place> {
     let (o, one) = (Expr::int(0), Expr::int(1));
     let points = points(d, row);
     let mut directions: Vec<Vector<Expr>> = vec![];
@@ -144,6 +145,11 @@ fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
     }
     add(points.axis, &mut directions);
     add(points.axis.scale(-one), &mut directions);
+    let bases: Vec<Vector<Expr>> = match from {
+        None => points.joints.iter().chain(&points.ends).copied().collect(),
+        Some(Start::Joint) => points.joints.clone(),
+        Some(Start::End) => points.ends.clone(),
+    };
     let mut found: Vec<Place> = vec![];
     let mut push = |centre: Vector<Expr>, rod: Option<(Expr, Vector<Expr>)>| {
         let is_known = found.iter().any(|p| p.centre == centre && p.rod == rod);
@@ -153,7 +159,7 @@ fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
     };
     for &length in lengths {
         for u in &directions {
-            for base in points.joints.iter().chain(&points.ends) {
+            for base in &bases {
                 push(*base + u.scale(length), None);
             }
         }
@@ -172,7 +178,7 @@ fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
     }
     for &length in lengths {
         for u in &directions {
-            for base in points.joints.iter().chain(&points.ends) {
+            for base in &bases {
                 push(*base + u.scale(length * half()), Some((length, *u)));
             }
         }
@@ -184,7 +190,7 @@ fn places(d: &Description, row: usize, lengths: &[Expr]) -> Vec<Place> {
 }
 
 /// The bodies that link `k` may have, in the frame of its row, each with the inertia of the rotor that turns it: `meaning` is what a
-/// symbol of the document stands for there, `told` the point about which its words say that inertias are. And whether there are more.
+/// symbol of the document stands for there, `told` what its words say. And whether there are more.
 pub(super) fn bodies(
     d: &Description,
     row: usize,
@@ -192,7 +198,7 @@ pub(super) fn bodies(
     is_last: bool,
     roles: &BTreeMap<Symbol, Role>,
     meaning: &dyn Fn(Symbol) -> Expr,
-    told: Option<Point>,
+    told: &Told,
 ) -> (Vec<Numbers>, bool) {
     let o = Expr::int(0);
     let none = Rotor::felt(o);
@@ -209,7 +215,21 @@ pub(super) fn bodies(
             9 => first(&|r| r == Role::Mass(Some(k))),
             _ => first(&|r| r == Role::Ten(k, at)),
         });
-        return (vec![numbers(ten, Rotor::felt(first(&|r| r == Role::Rotor(Some(k)))), [o; 3])], false);
+        let rotor = Rotor::felt(first(&|r| r == Role::Rotor(Some(k))));
+        let mut found = vec![numbers(ten, rotor, [o; 3])];
+        if d.convention.begins_with_joint() {
+            // In the frame that has its z along the link's own axis, or in the row's.
+            let r = &d.rows[row];
+            let back = Transform::rotation_about(denavit::geometry::Axis::X, r.alpha)
+                * Transform::translation_x(r.a);
+            let own = Body::of(ten).seen_from(&back.inverse());
+            let simple = own
+                .parameters()
+                .map(|e| denavit_symbolic::readable::simplify(e, &e.symbols()).map_or(e, |s| s.expr));
+            found.insert(0, numbers(simple, rotor, [o; 3]));
+            found.dedup();
+        }
+        return (found, false);
     }
     let prefer = |own: Vec<Expr>, shared: Vec<Expr>| if own.is_empty() { shared } else { own };
     let mut masses = prefer(of(&|r| r == Role::Mass(Some(k))), of(&|r| r == Role::Mass(None)));
@@ -219,7 +239,10 @@ pub(super) fn bodies(
         e.symbols().iter().any(|s| matches!(roles.get(s), Some(Role::Mass(None) | Role::Length(None))))
     };
     let has_own = roles.values().any(|r| matches!(r, Role::Mass(Some(_))));
-    let inertias: Vec<Expr> = inertias.into_iter().filter(|e| !(has_own && is_general(e))).collect();
+    // Points have none.
+    let is_point = told.links.shape == Some(Shape::Point);
+    let is_meant = |e: &Expr| !(is_point || has_own && is_general(e));
+    let inertias: Vec<Expr> = inertias.into_iter().filter(is_meant).collect();
     let rotors = prefer(of(&|r| r == Role::Rotor(Some(k))), of(&|r| r == Role::Rotor(None)));
     // A rotor behind a gear, whose ratio may be Spong's `r_1` beside other lengths.
     let gears = prefer(of(&|r| r == Role::Gear(Some(k))), of(&|r| r == Role::Gear(None)));
@@ -234,7 +257,7 @@ pub(super) fn bodies(
     let (gears, own_lengths) = (prefer(gears.clone(), meant(ratios)), meant(own_lengths));
     let lengths = prefer(own_lengths, of(&|r| r == Role::Length(None)));
     let axes: [Option<Expr>; 3] = [0, 1, 2].map(|axis| of(&|r| r == Role::About(k, axis)).first().copied());
-    let has_axes = axes.iter().any(Option::is_some);
+    let has_axes = axes.iter().any(Option::is_some) && !is_point;
     if masses.is_empty() {
         masses.push(o);
     }
@@ -263,7 +286,8 @@ pub(super) fn bodies(
     // Where none is named so, `J` beside `I`, or the only inertia that there is, may be that of a rotor.
     let mut ways: Vec<(Rotor, Vec<Expr>)> = turned.iter().map(|r| (*r, inertias.clone())).collect();
     ways.push((none, inertias.clone()));
-    if rotors.is_empty() {
+    // What words call the inertias of links are no rotors'.
+    if rotors.is_empty() && told.links.inertias.is_empty() {
         for (at, &rotor) in inertias.iter().enumerate() {
             let others = inertias.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, e)| *e);
             ways.push((Rotor::felt(rotor), others.collect()));
@@ -305,14 +329,24 @@ pub(super) fn bodies(
             _ => vec![body],
         }
     };
-    let [is_centre, is_joint] = [Point::Centre, Point::Joint].map(|p| told.is_none_or(|t| t == p));
+    let [is_centre, is_joint] = [Point::Centre, Point::Joint].map(|p| told.inertia.is_none_or(|t| t == p));
     // About the joint.
     let about_joint = |mass: Expr, c: Vector<Expr>, joint: Vector<Expr>, tensor: [Expr; 6]| {
         let mut body = Body::about_centre(mass, c - joint, [o; 6]);
         body.inertia = tensor;
         body.seen_from(&Transform::translation(joint[0], joint[1], joint[2]))
     };
-    let places = places(d, row, &lengths);
+    let mut places = places(d, row, &lengths, told.links.from(k));
+    let is_rod = told.links.shape == Some(Shape::Rod);
+    let is_told = |p: &Place| match told.links.place {
+        Some(At::End) => points.ends.contains(&p.centre),
+        // Unless a name for half of it is what lengths have.
+        Some(At::Middle) => p.rod.is_some() || !lengths.is_empty(),
+        None => true,
+    };
+    if places.iter().any(is_told) {
+        places.retain(is_told);
+    }
     for (rotor, inertias) in &ways {
         rotor_now.set(*rotor);
         for (&mass, place) in masses.iter().flat_map(|m| places.iter().map(move |p| (m, p))) {
@@ -347,8 +381,10 @@ pub(super) fn bodies(
                 }
             }
             if inertias.is_empty() {
-                add(with([o; 6]), c, &loaded);
-                if let Some((length, u)) = place.rod {
+                if !is_rod || place.rod.is_none() {
+                    add(with([o; 6]), c, &loaded);
+                }
+                if let (Some((length, u)), false) = (place.rod, is_point) {
                     let twelfth = Expr::from(Rational::new(1, 12));
                     add(with(slender(twelfth * mass * length.powi(2), &u)), c, &loaded);
                 }
@@ -360,7 +396,7 @@ pub(super) fn bodies(
 }
 
 /// The inertia of a thin rod along a direction.
-fn slender(inertia: Expr, u: &Vector<Expr>) -> [Expr; 6] {
+pub(super) fn slender(inertia: Expr, u: &Vector<Expr>) -> [Expr; 6] {
     let one = Expr::int(1);
     let at = |i: usize, j: usize| {
         let own = if i == j { one } else { Expr::int(0) };

@@ -11,14 +11,18 @@
 mod attempt;
 mod author;
 mod bodies;
+mod centres;
+mod described;
 mod letters;
 mod matrices;
 mod measures;
 mod model;
 mod points;
 mod quantity;
+mod read_with;
 mod repair;
 mod slopes;
+mod spoken_torques;
 mod statements;
 mod taken;
 mod together;
@@ -27,7 +31,7 @@ mod verdict;
 mod vote;
 mod words;
 
-use crate::facts::{About, Dynamic, Unproved};
+use crate::facts::{About, Dynamic, ReadWith, Unproved};
 use crate::formula::Formula;
 use crate::note::Unreadable;
 use crate::outcome::{Claim, Entry, Finding, Skipped, Standing, Unjudged};
@@ -44,6 +48,8 @@ use verdict::{By, Said};
 pub(super) struct Judged {
     pub claims: Vec<Claim>,
     pub unjudged: Vec<Unjudged>,
+    /// How masses and gravity are read where no words say it, at the first formula that is right so.
+    pub read_with: Vec<(Range<usize>, Vec<ReadWith>)>,
 }
 
 /// Takes the statements about dynamics out of a document.
@@ -51,24 +57,33 @@ pub(super) fn taken(text: &str, document: &mut Document, rows: &[Range<usize>]) 
     taken::taken(text, document, rows)
 }
 
-/// Judges the statements about dynamics; the first of its claims has the number `first` among all.
-pub(super) fn judged(text: &str, taken: &[Statement], plan: &Plan, first: usize) -> Judged {
+/// Judges the statements about dynamics beside claims that there are already.
+pub(super) fn judged(text: &str, taken: &[Statement], plan: &Plan, known: &[Claim]) -> Judged {
     let mut by_subject: BTreeMap<usize, Vec<Statement>> = BTreeMap::new();
     for statement in taken {
         by_subject.entry(plan.at(statement.span.start)).or_default().push(statement.clone());
     }
     let mut judged = Judged::default();
     for (number, statements) in by_subject {
-        of_robot(text, &statements, plan, number, first, &mut judged);
+        of_robot(text, &statements, plan, number, known, &mut judged);
     }
     judged
+}
+
+/// True for a statement that gives a mass, an inertia or gravity in numbers.
+pub(super) fn is_measure(text: &str, statement: &Statement) -> bool {
+    let name = statement.sides.first().and_then(statements::formula_span);
+    let name = name.and_then(|span| statements::lone_name(text, &span));
+    let role = name.and_then(|n| words::role(&statements::word(&n), 9));
+    let is_of_masses = role.is_some_and(|r| !matches!(r, words::Role::Length(_) | words::Role::Gear(_)));
+    is_of_masses && taken::is_measure(text, statement)
 }
 
 /// How many statements about dynamics are right of a plan's robots, and how many are wrong.
 pub(super) fn support(text: &str, document: &Document, plan: &Plan) -> [usize; 2] {
     let mut document = document.clone();
     let taken = taken(text, &mut document, &plan.tables);
-    let claims = judged(text, &taken, plan, 0).claims;
+    let claims = judged(text, &taken, plan, &[]).claims;
     let count = |is_so: fn(Standing) -> bool| claims.iter().filter(|c| is_so(c.standing())).count();
     [
         count(|s| s == Standing::Equal),
@@ -76,7 +91,7 @@ pub(super) fn support(text: &str, document: &Document, plan: &Plan) -> [usize; 2
     ]
 }
 
-fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: usize, judged: &mut Judged) {
+fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, known: &[Claim], judged: &mut Judged) {
     let subject = &plan.subjects[number];
     let silent = |s: &Statement| Unjudged { span: s.span.clone(), why: Skipped::SaysNothing };
     let attempt = attempt::best(text, subject, all);
@@ -88,9 +103,16 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
     };
     let read = &attempt.read;
     let names = Rc::new(read.vocabulary.clone());
+    let first_right = said.iter().position(|s| matches!(s, Said::Right { .. }));
+    if let Some(k) = first_right {
+        let read_with = read_with::read_with(&attempt, subject, &told::told(text), &names);
+        if !read_with.is_empty() {
+            judged.read_with.push((read.pieces[k].span.clone(), read_with));
+        }
+    }
     // Claims in the order of the statements: those of pieces, and those of helpers that are wrong or used.
     let mut claim_of_statement: BTreeMap<usize, usize> = BTreeMap::new();
-    let base = first + judged.claims.len();
+    let base = known.len() + judged.claims.len();
     let is_used = |h: usize| {
         let uses = |k: usize| matches!(said[k], Said::Right { .. }) && read.pieces[k].uses.contains(&h);
         (0..read.pieces.len()).any(uses)
@@ -184,6 +206,11 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, first: us
             robot: number,
         });
     }
+    let mut spoken = spoken_torques::judged(text, subject, &attempt, number);
+    let touch = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
+    spoken.retain(|c| !known.iter().any(|other| touch(&c.span, &other.span)));
+    judged.unjudged.retain(|u| !spoken.iter().any(|c| touch(&c.span, &u.span)));
+    judged.claims.extend(spoken);
 }
 
 /// The left side as printed; of one that holds matrices another side that is short.
@@ -204,7 +231,7 @@ fn is_general(text: &str, statement: &Statement) -> bool {
     let has_number = words.iter().any(|w| w.chars().any(|c| c.is_ascii_digit()));
     // `m`, `I`, `l`, `g` are those of a formula.
     let has_body = ["m", "I", "l", "g"].iter().any(|w| words.contains(*w));
-    !has_number && !has_body && source.len() < 300
+    taken::is_form(source) || !has_number && !has_body && source.len() < 300
 }
 
 /// True for what says what a mass, an inertia or a length is.

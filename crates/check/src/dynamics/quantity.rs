@@ -171,7 +171,11 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
     let Content { accelerations, rates, gravity } = content;
     match index.as_deref() {
         Some(&[i]) => {
-            if is(&TORQUES) || letters.starts_with('τ') || letters.starts_with('Γ') {
+            if is(&TORQUES)
+                || letters == "t" && accelerations
+                || letters.starts_with('τ')
+                || letters.starts_with('Γ')
+            {
                 if accelerations {
                     found.push(Quantity::Torque(i));
                 } else if rates && gravity {

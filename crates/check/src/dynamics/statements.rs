@@ -95,6 +95,15 @@ pub(super) fn lone_name(text: &str, span: &Range<usize>) -> Option<Name> {
     match &tokens(text, &(span.start..end), &|word| WORDS.contains(&word) || is_grouped(word))?[..] {
         [Token::Name(name)] => {
             let mut name = name.clone();
+            // `C(1,2)` is an entry, `M(q)` what depends on q.
+            let inner = source[end - span.start..].trim_matches([' ', '(', ')']);
+            let is_place = inner.len() < 8
+                && inner.contains(|c: char| c.is_ascii_digit())
+                && inner.chars().all(|c| c.is_ascii_digit() || matches!(c, ',' | ' '));
+            if is_place && name.sub.is_empty() {
+                name.sub = inner.replace([',', ' '], "");
+                name.arguments.clear();
+            }
             match name.base.as_str() {
                 "tau" | "Tau" => name.base = "τ".into(),
                 "Gamma" => name.base = "Γ".into(),
@@ -445,7 +454,9 @@ impl Reader<'_> {
                 false if self.names.is_measured => &hidden,
                 false => &hidden[..1],
             };
-            for name in &indexed {
+            // Beside Khalil's A a name `m_{12}` is one of something on the way.
+            let has_ten = self.names.roles.values().any(|r| matches!(r, Role::Ten(..)));
+            for name in indexed.iter().filter(|n| !(has_ten && n.base == "m")) {
                 for found in contents.iter().flat_map(|c| of_scalar(name, self.n, *c)) {
                     if !candidates.contains(&found) {
                         candidates.push(found);

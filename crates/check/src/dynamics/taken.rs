@@ -164,7 +164,7 @@ pub(in crate::dynamics) fn taken(
                 && spoken.words.contains("m")
         };
         let is_said = (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement);
-        if is_said || is_measured && is_in_numbers(text, statement) {
+        if is_said || is_form(source) || is_measured && is_in_numbers(text, statement) {
             is_taken[at] = true;
         }
         found.push((at, spoken));
@@ -172,8 +172,11 @@ pub(in crate::dynamics) fn taken(
     if !is_taken.contains(&true) {
         return vec![];
     }
+    // Beside Khalil's numbers all that leads to a torque, whatever it is called.
+    let is_ten = |w: &String| matches!(role(w, JOINTS), Some(Role::Ten(..)));
+    let is_khalil = mentioned.iter().filter(|w| is_ten(w)).count() > 1;
     // What uses a name that is defined there, as `C` does below `h = …`.
-    for _ in 0..4 {
+    for _ in 0..12 {
         // `c_{121} = … = h` defines both.
         let defined: BTreeSet<String> = (0..is_taken.len())
             .filter(|at| is_taken[*at])
@@ -207,6 +210,20 @@ pub(in crate::dynamics) fn taken(
                 is_new = true;
                 continue;
             }
+            // `w2hz = qd1 + qd2`, which torques use.
+            let name = formula_span(&statement.sides[0]).and_then(|s| lone_name(text, &s)).map(|n| word(&n));
+            let is_own = |w: &String| {
+                used.contains(w)
+                    && w.chars().filter(|c| c.is_alphabetic()).count() > 1
+                    && w.contains(|c: char| c.is_ascii_digit())
+            };
+            let is_needed = spoken.has_rates && name.as_ref().is_some_and(is_own);
+            let is_used = |n: &String| used.contains(n) || spoken.words.iter().any(|w| defined.contains(w));
+            if is_needed || is_khalil && name.as_ref().is_some_and(|n| !is_common(n) && is_used(n)) {
+                is_taken[*at] = true;
+                is_new = true;
+                continue;
+            }
             let uses = spoken.words.iter().any(|w| defined.contains(w) && !is_common(w));
             let is_kin = || family(*at).is_some_and(|f| families.contains(&f));
             if (uses || is_kin()) && is_of_dynamics(text, statement, spoken) {
@@ -229,6 +246,16 @@ pub(in crate::dynamics) fn taken(
         !is_here
     });
     taken
+}
+
+/// True for what says how matrices make torques, `M(q) q̈ + C(q, q̇) q̇ + g(q) = τ`, or for the end of it.
+pub(super) fn is_form(source: &str) -> bool {
+    let plain: String =
+        source.chars().filter(|c| !c.is_whitespace() && !matches!(c, '{' | '}' | '$')).collect();
+    let parts = ["M(q)", "D(q)", "H(q)", "B(q)", "A(q)", "C(q,", "V(q,", "h(q,", "G(q)", "g(q)", "N(q,"];
+    let parts = parts.iter().filter(|part| plain.contains(**part)).count();
+    let is_torque = ["τ", "\\tau", "Γ", "\\Gamma", "=Q", "=u"].iter().any(|t| plain.contains(t));
+    parts > 0 && is_torque && has_rates(source) && !plain.contains(|c: char| c.is_ascii_digit())
 }
 
 /// What the left side of a statement says of a point that a body has; of one without a mark, `x_2`, a number.
@@ -277,7 +304,7 @@ fn is_in_numbers(text: &str, statement: &Statement) -> bool {
 }
 
 /// True for a value in numbers, `m_1 = 2 kg`.
-fn is_measure(text: &str, statement: &Statement) -> bool {
+pub(super) fn is_measure(text: &str, statement: &Statement) -> bool {
     let is_value =
         |s: &str| s.trim().trim_start_matches(['-', '−']).starts_with(|c: char| c.is_ascii_digit());
     let first = statement.sides.first().and_then(formula_span);
@@ -285,10 +312,11 @@ fn is_measure(text: &str, statement: &Statement) -> bool {
         return false;
     }
     let sides = statement.sides.iter().skip(1);
+    let is_unit = |w: &str| matches!(w, "m" | "k" | "g");
     let is_short = |s: &str| s.split_whitespace().count() <= 2 && !s.contains(['\\', '(', '_']);
     let shown: Vec<&str> = sides.map(|s| text.get(s.span.clone()).unwrap_or_default()).collect();
     !shown.is_empty()
-        && shown
-            .iter()
-            .all(|s| is_value(s) && is_short(s) && words(s).iter().all(|w| role(w, 9).is_none() || w == "m"))
+        && shown.iter().all(|s| {
+            is_value(s) && is_short(s) && words(s).iter().all(|w| role(w, 9).is_none() || is_unit(w))
+        })
 }

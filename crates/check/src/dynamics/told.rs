@@ -1,5 +1,7 @@
-//! What sentences say of a document's dynamics: where gravity pulls, and about which points inertias are.
+//! What sentences say of a document's dynamics: where gravity pulls, about which points inertias are, and what the links are.
 
+use super::described::{Described, described};
+use crate::facts::Spoken;
 use crate::leeway::HELD;
 use crate::tools::edge;
 
@@ -11,19 +13,46 @@ pub(super) enum Point {
 }
 
 /// What the words of a document say.
-#[derive(Clone, Copy, Default, Debug)]
+#[derive(Clone, Default, Debug)]
 pub(super) struct Told {
     /// The axis along which gravity acts, and whether against it.
     pub gravity: Option<(usize, bool)>,
     /// Whether the arm is said to move in a horizontal plane, and nothing of the direction of gravity.
     pub is_level: bool,
     pub inertia: Option<Point>,
+    /// What is said of the links.
+    pub links: Described,
+    /// Whether there are words about rotors or motors.
+    pub has_rotors: bool,
+}
+
+impl Told {
+    /// What is said of bodies in one way alone.
+    pub fn only(&self, of: Spoken) -> Told {
+        let mut links = self.links.clone();
+        if of != Spoken::Shape {
+            (links.shape, links.place) = (None, None);
+        }
+        if of != Spoken::Centres {
+            links.from.clear();
+        }
+        if of != Spoken::LeftOut {
+            links.inertias.clear();
+        }
+        if of != Spoken::Links {
+            links.links.clear();
+        }
+        let inertia = self.inertia.filter(|_| of == Spoken::Inertias);
+        Told { inertia, links, ..Told::default() }
+    }
 }
 
 pub(super) fn told(text: &str) -> Told {
     let lower = text.to_lowercase();
     let gravity = gravity(&lower);
-    Told { gravity, is_level: gravity.is_none() && is_level(&lower), inertia: inertia(&lower) }
+    let has_rotors = ["rotor", "motor", "moteur", "läufer", "antrieb"].iter().any(|w| lower.contains(w));
+    let is_level = gravity.is_none() && is_level(&lower);
+    Told { gravity, is_level, inertia: inertia(&lower), links: described(&lower), has_rotors }
 }
 
 /// No sentence is longer that says something.
@@ -32,7 +61,7 @@ const LONGEST: usize = 300;
 const OFTEN: usize = 50;
 
 /// The sentences with a word in them.
-fn sentences<'t>(lower: &'t str, words: &'t [&'t str]) -> impl Iterator<Item = &'t str> {
+pub(super) fn sentences<'t>(lower: &'t str, words: &'t [&'t str]) -> impl Iterator<Item = &'t str> {
     words.iter().flat_map(move |word| lower.match_indices(word).take(OFTEN)).map(move |(at, _)| {
         let first = edge(lower, at.saturating_sub(LONGEST));
         let is_end = |text: &str, k: usize| {
@@ -106,7 +135,7 @@ fn is_level(lower: &str) -> bool {
 /// The point about which a sentence says that inertias are.
 fn inertia(lower: &str) -> Option<Point> {
     const WORDS: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
-    const CENTRES: [&str; 14] = [
+    const CENTRES: [&str; 17] = [
         "centre of mass",
         "center of mass",
         "centres of mass",
@@ -117,6 +146,9 @@ fn inertia(lower: &str) -> Option<Point> {
         "schwerpunkt",
         "massenmittelpunkt",
         "centre de masse",
+        "centres de masse",
+        "centros de mas",
+        "centri di massa",
         "centre de gravité",
         "centro de mas",
         "centro di massa",

@@ -225,6 +225,11 @@ impl Verdicts<'_> {
             return Said::Open(Unproved::NotFound);
         }
         if self.fared(test) == Fared::Either
+            && let Some(&of) = self.attempt.vote.against.first()
+        {
+            return Said::Open(Unproved::AgainstWords(of));
+        }
+        if self.fared(test) == Fared::Either
             || self.attempt.score() == 0 && !self.attempt.is_given
             || self.attempt.is_cut()
         {

@@ -6,6 +6,7 @@
 
 use super::model::{Model, NUMBERS, Numbers, State};
 use super::quantity::Quantity;
+use crate::facts::Spoken;
 use denavit_symbolic::{Expr, Symbol};
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,6 +118,8 @@ pub(super) struct Vote {
     factors: Vec<Vec<Vec<[f64; NUMBERS]>>>,
     /// There are more readings in which the same is right.
     pub is_many: bool,
+    /// What the words of the document say, where more is right in a reading that they contradict.
+    pub against: Vec<Spoken>,
 }
 
 impl Vote {
@@ -139,6 +142,23 @@ impl Vote {
             let off: f64 = (0..NUMBERS).map(|p| of[k][p] * (twice[p] - once[p])).sum();
             let size: f64 = (0..NUMBERS).map(|p| (of[k][p] * once[p]).abs()).sum();
             off.abs() > ROUNDING * (1.0 + size)
+        })
+    }
+
+    /// True if a link's numbers are the same where a reading feels them.
+    pub fn is_same(
+        &self,
+        reading: &Reading,
+        k: usize,
+        one: &Numbers,
+        other: &Numbers,
+        state: &State,
+    ) -> bool {
+        let is_felt = |p: usize| self.factors[reading.gravity].iter().any(|of| of[k][p].abs() > ROUNDING);
+        (0..NUMBERS).filter(|&p| is_felt(p)).all(|p| {
+            one[p] == other[p]
+                || values(one[p] - other[p], state)
+                    .is_some_and(|off| [0, 2].iter().all(|&at| off[at].abs() < ROUNDING))
         })
     }
 
@@ -460,6 +480,6 @@ impl<'a> Voter<'a> {
         if best.first().is_some_and(|b| most_lost >= b.score.max(1)) {
             self.bounds.is_cut.set(true);
         }
-        (!best.is_empty()).then_some(Vote { best, links, factors: first_factors, is_many })
+        (!best.is_empty()).then_some(Vote { best, links, factors: first_factors, is_many, against: vec![] })
     }
 }

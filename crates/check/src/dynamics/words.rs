@@ -54,6 +54,16 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
             at += 1 + name.chars().count();
             match name.as_str() {
                 "ell" => "l".to_string(),
+                "mathit" | "mathrm" if chars.get(at) == Some(&'{') => {
+                    // A name with a number in it is one: `\mathit{U2h}_{11}`.
+                    let inner: String =
+                        chars[at + 1..].iter().take_while(|c| c.is_alphanumeric()).take(12).collect();
+                    if inner.contains(|c: char| c.is_ascii_digit()) {
+                        at += 1 + inner.chars().count();
+                        found.insert(format!("{inner}{}", script(&chars, &mut at)));
+                    }
+                    continue;
+                }
                 "begin" | "end" => {
                     // The name of an environment is none of the formula.
                     at += chars[at..].iter().take_while(|c| **c != '}').take(40).count();
@@ -321,7 +331,10 @@ pub(super) fn names(
             && own.lookup(word).is_none()
             && rates.into_iter().any(|w| w == word || word == "d" && w.starts_with('d'))
     };
-    for word in mentioned.iter().filter(|w| !is_of_rate(w)) {
+    // Beside Khalil's M_1 a name m_1 is another.
+    let has_ten = mentioned.iter().any(|w| matches!(role_of(w, n, letters), Some(Role::Ten(..))));
+    let is_other = |word: &str| has_ten && word.starts_with('m');
+    for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w)) {
         let Some(role) = role_of(word, n, letters) else { continue };
         if let Role::Gear(of) = role
             && !has_rotor(of)

@@ -1,7 +1,9 @@
 //! How formulas of dynamics are meant: what the document says of it, one meaning for one letter, special cases, and names that are no
 //! quantities of dynamics. Short documents about a planar arm with two links, in pieces.
 
-use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_check::{
+    CheckOptions, Checked, Finding, Noted, ReadWith, Spoken, Standing, Unproved, Whereabouts, check,
+};
 use denavit_reading::document::Format;
 
 const TABLE: &str = "# Two-link arm, dynamics\n\nStandard DH\n\n| i | theta | d | a | alpha |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | l1 | 0 |\n| 2 | θ2 | 0 | l2 | 0 |\n";
@@ -112,6 +114,121 @@ $$M_{22} = I_2$$";
     };
     says(&[&where_("the joints"), about_joints], &[RIGHT; 3]);
     says(&[&where_("the centres of mass"), about_joints], &[OPEN; 3]);
+}
+
+/// A planar arm with centres of mass at `lc1` and `lc2` from the joints, inertias about them with these names, and `+ more` on the diagonal.
+fn centres([lc1, lc2]: [&str; 2], inertias: Option<[&str; 2]>, more: &str) -> String {
+    let [i1, i2] = inertias.map_or([String::new(), String::new()], |all| all.map(|i| format!("{i} + ")));
+    format!(
+        r"$$M_{{11}} = {i1}{i2}m_1 {lc1}^2 + m_2(l_1^2 + {lc2}^2 + 2 l_1 {lc2} c_2){more}$$
+
+$$M_{{12}} = {i2}m_2 ({lc2}^2 + l_1 {lc2} c_2)$$
+
+$$M_{{22}} = {i2}m_2 {lc2}^2{more}$$
+
+$$g_1 = (m_1 {lc1} + m_2 l_1) g c_1 + m_2 g {lc2} c_{{12}}$$
+
+$$g_2 = m_2 g {lc2} c_{{12}}$$"
+    )
+}
+
+const OWN: [&str; 2] = ["l_{c1}", "l_{c2}"];
+const INERTIAS: Option<[&str; 2]> = Some(["I_1", "I_2"]);
+
+/// What is said to contradict formulas, of each that is open.
+fn against(all: &Checked) -> Vec<Spoken> {
+    let findings = all.claims.iter().flat_map(|c| &c.entries).map(|e| &e.finding);
+    let spoken = |f: &Finding| match f {
+        Finding::Undecided { why: Unproved::AgainstWords(of) } => Some(*of),
+        _ => None,
+    };
+    findings.filter_map(spoken).collect()
+}
+
+fn read_with(all: &Checked) -> Vec<ReadWith> {
+    let of = |what: &Noted| match what {
+        Noted::ReadWith(all) => all.clone(),
+        _ => vec![],
+    };
+    all.notes.iter().flat_map(|n| of(&n.what)).collect()
+}
+
+#[test]
+fn what_contradicts_the_words_about_links_is_open() {
+    let usual = centres(OWN, INERTIAS, "");
+    let from = |words: &str| {
+        format!("{words} $I_1$, $I_2$ are the inertias about the centres of mass. Gravity acts along −y.")
+    };
+    let joints = from("$l_{c1}$, $l_{c2}$ are the distances of the centres of mass from the joints.");
+    let all = says(&[&joints, &usual], &[RIGHT; 5]);
+    assert_eq!(read_with(&all), []);
+    for ends in [
+        "$l_{c1}$ is the distance of the centre of mass of link 1 from its far end (joint 2), $l_{c2}$ that of link 2 from the tip.",
+        "The lengths $l_{ci}$ are measured from the distal end of each link to its centre of mass.",
+        "$l_{ci}$: distance from joint $i+1$ to the centre of mass of link i.",
+    ] {
+        let all = says(&[&from(ends), &usual], &[OPEN; 5]);
+        assert_eq!(against(&all), [Spoken::Centres; 5], "{ends}");
+        // So measured they are right.
+        let measured = centres(["(l_1 - l_{c1})", "(l_2 - l_{c2})"], INERTIAS, "");
+        says(&[&from(ends), &measured], &[RIGHT; 5]);
+    }
+    // Names of the other link.
+    let swapped = from(
+        "$l_{c2}$ is the distance from joint 1 to the centre of mass of link 1, $l_{c1}$ from joint 2 to that of link 2.",
+    );
+    says(&[&swapped, &centres(["l_{c2}", "l_{c1}"], INERTIAS, "")], &[RIGHT; 5]);
+    says(&[&swapped, &usual], &[OPEN; 5]);
+}
+
+#[test]
+fn what_contradicts_the_words_about_points_and_inertias_is_open() {
+    let [with, without] = [INERTIAS, None].map(|inertias| centres(OWN, inertias, ""));
+    let points = "The links are point masses $m_1$, $m_2$ at the distances $l_{c1}$, $l_{c2}$ from the joints. Gravity acts along −y.";
+    says(&[points, &without], &[RIGHT; 5]);
+    let all = says(&[points, &with], &[OPEN, OPEN, OPEN, RIGHT, RIGHT]);
+    assert_eq!(against(&all), [Spoken::Shape; 3]);
+    for words in [
+        "Link $i$ has the mass $m_i$, its centre of mass at $l_{ci}$ from joint $i$, and the inertia $I_i$ about its centre of mass. Gravity acts along −y.",
+        "The links have masses $m_1$, $m_2$ and moments of inertia $I_1$, $I_2$. The centres of mass are at $l_{c1}$, $l_{c2}$ from the joints. Gravity acts along −y.",
+    ] {
+        says(&[words, &with], &[RIGHT; 5]);
+        let all = says(&[words, &without], &[OPEN, OPEN, OPEN, RIGHT, RIGHT]);
+        assert_eq!(against(&all), [Spoken::LeftOut; 3], "{words}");
+    }
+    let neglected = "The inertias $I_1$, $I_2$ are neglected, the centres of mass are at $l_{c1}$, $l_{c2}$ from the joints.";
+    says(&[neglected, &without], &[RIGHT; 5]);
+    // Rods.
+    let rods = "The links are thin uniform rods. Gravity acts along −y.";
+    let ends = centres(["l_1", "l_2"], None, "");
+    says(&[rods, &ends], &[OPEN; 5]);
+    says(&["Gravity acts along −y.", &ends], &[RIGHT; 5]);
+}
+
+#[test]
+fn what_is_chosen_is_said() {
+    let all = says(&["An arm.", &centres(OWN, INERTIAS, "")], &[RIGHT; 5]);
+    let found = read_with(&all);
+    let places =
+        found.iter().filter(|r| matches!(r, ReadWith::Mass { at: Whereabouts::FromJoint(_), .. })).count();
+    let inertias = found.iter().filter(|r| matches!(r, ReadWith::Inertia { is_at_joint: false, .. })).count();
+    let gravity = found.iter().filter(|r| matches!(r, ReadWith::Gravity(_))).count();
+    assert_eq!((places, inertias, gravity, found.len()), (2, 2, 1, 5), "{found:?}");
+    // A name of which nothing is said takes the place of a rotor's inertia.
+    let words = "$l_{c1}$, $l_{c2}$ are the distances of the centres of mass from the joints, $I_1$, $I_2$ the inertias about the centres of mass. Gravity acts along −y.";
+    let all = says(&[words, &centres(OWN, INERTIAS, " + J_m")], &[RIGHT; 5]);
+    let found = read_with(&all);
+    assert!(
+        matches!(&found[..], [ReadWith::Rotor { joint: 0, .. }, ReadWith::Rotor { joint: 1, .. }]),
+        "{found:?}"
+    );
+    let named = format!("{words} $J_m$ is the inertia of each rotor.");
+    assert_eq!(read_with(&says(&[&named, &centres(OWN, INERTIAS, " + J_m")], &[RIGHT; 5])), []);
+    let ends = says(&["An arm.", &centres(["l_1", "l_2"], None, "")], &[RIGHT; 5]);
+    let found = read_with(&ends);
+    let is_end = |r: &&ReadWith| matches!(r, ReadWith::Mass { at: Whereabouts::End, .. });
+    let points = found.iter().filter(|r| matches!(r, ReadWith::Point { .. })).count();
+    assert_eq!((found.iter().filter(is_end).count(), points), (2, 2), "{found:?}");
 }
 
 #[test]
@@ -243,4 +360,65 @@ fn many_names_are_bounded() {
         .collect();
     let all = checked(&[&format!(r"$$\tau_1 = a_1{sum}$$"), &entries]);
     assert!(all.claims.iter().all(|c| !c.is_proved()));
+}
+
+#[test]
+fn entries_may_be_called_by_places_in_parentheses() {
+    let text = r"M(q)q̈ + C(q,q̇)q̇ + g(q) = τ
+
+M(1,1) = m1 l1^2 + m2 (l1^2 + l2^2 + 2 l1 l2 cos(θ2))
+M(1,2) = M(2,1) = m2 l2^2 + m2 l1 l2 cos(θ2)
+M(2,2) = m2 l2^2
+
+C(1,1) = -m2 l1 l2 sin(θ2) θ̇2
+C(1,2) = -m2 l1 l2 sin(θ2) (θ̇1 + θ̇2)
+C(2,1) = m2 l1 l2 sin(θ2) θ̇1
+C(2,2) = 0
+
+g(1) = (m1 + m2) g l1 cos(θ1) + m2 g l2 cos(θ1 + θ2)
+g(2) = m2 g l2 cos(θ1 + θ2)";
+    let all = says(&[POINTS, text], &[RIGHT; 9]);
+    assert!(all.unjudged.is_empty(), "{:?}", all.unjudged);
+    let wrong = text.replace("g(2) = m2 g l2 cos", "g(2) = m2 g l2 sin");
+    says(&[POINTS, &wrong], &[RIGHT, RIGHT, RIGHT, RIGHT, RIGHT, RIGHT, RIGHT, RIGHT, WRONG]);
+    let matrices = r"$$M(q)\ddot q + C(q,\dot q)\dot q + g(q) = \tau$$
+
+with $M(q) = \begin{bmatrix} M_{11} & M_{12} \\ M_{21} & M_{22} \end{bmatrix}$ and
+
+- $M_{11} = m_1 l_1^2 + m_2(l_1^2 + l_2^2 + 2 l_1 l_2 c_2)$
+- $M_{12} = M_{21} = m_2 l_2^2 + m_2 l_1 l_2 c_2$
+- $M_{22} = m_2 l_2^2$";
+    let all = checked(&[POINTS, matrices]);
+    let is_proved = all.claims.len() > 3 && all.claims.iter().all(denavit_check::Claim::is_proved);
+    assert!(is_proved && all.unjudged.is_empty(), "{:?} {:?}", all.claims, all.unjudged);
+}
+
+#[test]
+fn torques_in_numbers_are_judged() {
+    let formulas = r"$$g_1 = (m_1 + m_2) g l_1 c_1 + m_2 g l_2 c_{12}$$
+
+$$g_2 = m_2 g l_2 c_{12}$$";
+    let values = "l1 = 0.5 m, l2 = 0.4 m, m1 = 2 kg, m2 = 1 kg, g = 9.81 m/s^2.";
+    // 9.81 (3 · 0.5 + 0.4) = 18.639, 9.81 · 0.4 = 3.924, 9.81 · 1.5 = 14.715
+    let right = [
+        "At q = (0, 0), at rest, the torques are 18.639 N m and 3.924 N m.",
+        "For θ1 = 0, θ2 = 90° the torques that hold the arm are τ1 = 14.715 N m and τ2 = 0 N m.",
+        "At θ1 = 0°, θ2 = 90° the torques are τ = (14.7, 0.0) N m.",
+        r"Let q = (0, pi/2). Then the torques are $\tau_1 = 14.7\,\mathrm{N\,m}$ and $\tau_2 = 0\,\mathrm{N\,m}$.",
+    ];
+    let all = checked(&[POINTS, values, formulas, &right.join("\n\n")]);
+    let standing: Vec<Standing> = all.claims.iter().map(denavit_check::Claim::standing).collect();
+    assert_eq!(standing, [RIGHT; 8], "{:?}", all.claims);
+    assert!(all.unjudged.is_empty(), "{:?}", all.unjudged);
+    // A number that is another, in a state that is said with it; where it is said before it may be one of another state.
+    says(&[POINTS, values, formulas, &right[0].replace("3.924", "4.924")], &[RIGHT, RIGHT, WRONG]);
+    let other = "Let q = (0, pi/2). Then the torques are 18.639 N m and 3.924 N m.";
+    says(&[POINTS, values, formulas, other], &[RIGHT, RIGHT, OPEN]);
+    // What drives can do is none of these.
+    for words in [
+        "The torque limits are 20 N m and 10 N m.",
+        "At q = (0, 0) torques of at most 30 N m and 20 N m are possible.",
+    ] {
+        says(&[POINTS, values, formulas, right[0], words], &[RIGHT, RIGHT, RIGHT]);
+    }
 }

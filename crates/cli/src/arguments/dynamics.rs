@@ -62,7 +62,7 @@ pub struct DynamicsArguments {
     #[arg(long, value_name = "WRENCH", allow_hyphen_values = true)]
     pub wrench: Option<String>,
     /// The first derivatives of the torques by q, q̇ and q̈, or with --tau of the accelerations by q, q̇ and τ, too
-    #[arg(long, requires = "q", conflicts_with_all = ["wrench", "simulate"])]
+    #[arg(long, requires = "q", conflicts_with_all = ["wrench", "simulate", "symbolic", "explain"])]
     pub derivatives: bool,
     /// All joints of a tree of bodies (a URDF, an MJCF or a tree of rows) and not one chain through it: the root stands still. -q, --qd,
     /// --qdd and --tau have a value a joint, branch after branch as `fk --frames all` has them; -q takes names, too, as in -q "elbow=0.5"

@@ -54,7 +54,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
     }?;
     if let Some(why) = &generated.refused {
         // What was asked for by its name is there, or nothing is.
-        if generated.files.is_empty() || arguments.functions.is_some() {
+        if generated.files.is_empty() || arguments.functions.is_some() || arguments.given.is_some() {
             return Err(Failure::Unsupported(format!("ik: {why}")));
         }
         note(&format!("warning: no ik: {why}"));
@@ -104,8 +104,8 @@ fn group_chain(arguments: &GenerateArguments) -> Result<Option<GenerateArguments
     let Some(Tree::Bodies(mechanism)) = load::mechanism(&arguments.robot)? else {
         return Err(Failure::Usage("--srdf is for the groups of a URDF or MJCF".into()));
     };
-    let text = load::contents(file, MAX_XML_BYTES)
-        .map_err(|e| Failure::Input(format!("error: {file}: {e}")))?;
+    let text =
+        load::contents(file, MAX_XML_BYTES).map_err(|e| Failure::Input(format!("error: {file}: {e}")))?;
     let (groups, findings) =
         read_srdf(&text).map_err(|errors| Failure::Input(render(&errors, file, &text)))?;
     note(render(&findings, file, &text).trim_end());
@@ -274,6 +274,10 @@ fn write(generated: &Generated, folder: &Path, force: bool) -> Result<(), Failur
     for file in &generated.files {
         let path = target(&file.path);
         if let Some(parent) = path.parent() {
+            if let Some(file) = parent.ancestors().find(|p| p.is_file()) {
+                let file = file.display();
+                return Err(Failure::Input(format!("error: {file}: a file stands where a folder should")));
+            }
             fs::create_dir_all(parent).map_err(|e| failed(parent, e))?;
         }
         fs::write(&path, &file.text).map_err(|e| failed(&path, e))?;

@@ -9,7 +9,7 @@ const TWO_LINKS: &str = "name = '2R'\nconvention = 'craig'\ngravity = [0, '-9.81
     [[joints]]\na = '0.5'\ntheta = 'q2'\nmass = '2.3'\ncom = ['0.4', 0, 0]\ncoulomb = '0.2'\n";
 
 /// The file of a test, by its name.
-fn file(name: &str, contents: &str) -> String {
+pub fn file(name: &str, contents: &str) -> String {
     let path = std::env::temp_dir().join(format!("denavit-dynamics-{}-{name}", std::process::id()));
     std::fs::write(&path, contents).expect("a file");
     path.to_string_lossy().into_owned()
@@ -26,7 +26,7 @@ fn numbers(v: &Value) -> Vec<f64> {
 }
 
 #[track_caller]
-fn refused(arguments: &[&str], code: i32, says: &str) {
+pub fn refused(arguments: &[&str], code: i32, says: &str) {
     let output = fed(&[&["dynamics"], arguments].concat(), "");
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
     assert!(text(&output.stderr).contains(says), "{arguments:?}: {}", text(&output.stderr));
@@ -322,7 +322,7 @@ fn wrenches_at_frames() {
     let (named, tip) = (held("panda_hand_tcp", &["--at", "panda_hand"]), held("panda_hand", &[]));
     assert!(named.iter().zip(&tip).all(|(a, b)| (a - b).abs() < 1e-9), "{named:?} {tip:?}");
     assert_ne!(named, held("panda_hand_tcp", &[]));
-    refused(&[&arm, "-q", "0,0", "--at", "nowhere"], 2, "no frame `nowhere`");
+    refused(&[&arm, "-q", "0,0", "--wrench", "1,0,0,0,0,0", "--at", "nowhere"], 2, "no frame `nowhere`");
 }
 
 /// A load at the tool, a wrench at a frame, momentum and power.

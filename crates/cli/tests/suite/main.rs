@@ -8,6 +8,7 @@ mod command_line;
 mod common;
 mod doors;
 mod dynamics;
+mod dynamics_said;
 mod exercise;
 mod generate;
 mod ik;

@@ -143,6 +143,14 @@ impl Controller<'_> {
             .replace("@range@", self.range())
             .replace("@nearest@", &nearest)
             .replace("@given_check@", &either(has_given, &given_check))
+            .replace(
+                "@given_bound@",
+                if has_given {
+                    ",\n * or @name@_solve for up to 33 values of the joints that are given and Newton's method from 24 configurations"
+                } else {
+                    ""
+                },
+            )
             .replace("@parameters_check@", &either(p, parameters_check))
             .replace("@given_declaration@", &either(has_given, &given_line))
             .replace("@given_local@", &either(has_given, &given_line))

@@ -50,7 +50,7 @@ impl Controller<'_> {
             include_str!("javascript/search_plain.js.txt")
         };
         let solve_goal = if self.passes_rounded() {
-            "[0, 4, 8].map((start) => [0, 1, 2, 3].map((k) => pose[start + k]))"
+            "off <= 1e-5 ? [0, 4, 8].map((start) => [0, 1, 2, 3].map((k) => pose[start + k])) : goal"
         } else {
             "goal"
         };
@@ -78,12 +78,12 @@ impl Controller<'_> {
         let template = result.map_or(template.to_string(), |q| template.replace("@solve_result@: q", q));
         let test_given: Vec<String> = self.given.iter().map(|j| format!("q[{j}]")).collect();
         let (default, public, limits) = if self.has_defaults {
-            (", parameters = DEFAULTS", "[parameters]", "{IkLimits} [limits]")
+            (", parameters = DEFAULTS", "[parameters]", "{IkLimits} [allowed]")
         } else {
-            (", parameters", "parameters", "{IkLimits | undefined} limits")
+            (", parameters", "parameters", "{IkLimits | undefined} allowed")
         };
         let public = format!("\n * @param {{Parameters}} {public} values of the symbols");
-        let limits = if p { limits } else { "{IkLimits} [limits]" };
+        let limits = if p { limits } else { "{IkLimits} [allowed]" };
         let given: Vec<String> = self.given.iter().map(usize::to_string).collect();
         let nearest = self.nearest().replace("OUTSIDE_LIMITS", "outside limits").replace("FAMILY", "family");
         let nearest =
@@ -92,6 +92,19 @@ impl Controller<'_> {
             .replace("@most@", most)
             .replace("@branch@", branch)
             .replace("@search@", search.trim_end())
+            .replace("@settle@", include_str!("javascript/settle.js.txt"))
+            .replace(
+                "@parameters_check@",
+                &either(
+                    p,
+                    "\n  if (!Object.values(parameters).every(Number.isFinite)) {\n    return { status: \"not finite\", off, \
+                     solutions: [] };\n  }",
+                ),
+            )
+            .replace(
+                "@parameters_numbers@",
+                &either(p, " &&\n    Object.values(parameters).every(Number.isFinite)"),
+            )
             .replace("@spread@", if has_given { include_str!("javascript/spread.js.txt") } else { "" })
             .replace("@twist@", twist.trim_end())
             .replace("@wrong@", wrong)
@@ -103,7 +116,7 @@ impl Controller<'_> {
             .replace("@given_passed@", if has_given { ", given" } else { "" })
             .replace("@given_test@", &either(has_given, &format!(", [{}]", test_given.join(", "))))
             .replace("@given_doc@", &either(has_given, "\n * @param {ArrayLike<number>} given"))
-            .replace("{IkLimits} @limits_name@", limits)
+            .replace("{IkLimits} @allowed_name@", limits)
             .replace("@parameters_default@", &either(p, default))
             .replace("@parameters_public@", &either(p, &public))
             .replace("@parameters_doc@", &either(p, "\n * @param {Parameters} parameters"))

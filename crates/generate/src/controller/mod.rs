@@ -142,12 +142,12 @@ impl<'a> Controller<'a> {
     /// What is said of the nearest configuration.
     fn nearest(&self) -> &'static str {
         if self.given.is_empty() {
-            "Of families the member that is nearest is found by moving the arm with its hand still. The status is that of \
-             ik, or OUTSIDE_LIMITS; with FAMILY and UNDECIDED a nearer one may not be known."
+            "Of families the member within the limits that is nearest is found by moving the arm with its hand still. The status is \
+             that of ik, or OUTSIDE_LIMITS; with FAMILY, UNDECIDED and OUTSIDE_LIMITS a nearer one may not be known."
         } else {
             "The joints in excess are free: it starts from the previous configuration, and from solutions at 33 of their values if \
              that leads farther than 0.1 rad away, and moves the arm with its hand still until no member nearby is nearer. SOLVED \
-             then says that q has the pose, and not that nothing else is nearer; UNDECIDED that none was found."
+             then says that q has the pose, and not that nothing else is nearer; OUTSIDE_LIMITS and UNDECIDED that none was found."
         }
     }
 

@@ -80,7 +80,10 @@ impl Controller<'_> {
         } else {
             self.read().to_string()
         };
-        let solve_goal = if self.passes_rounded() { "pose" } else { "&goal" };
+        let solve_goal =
+            if self.passes_rounded() { "if off <= 1e-5 { pose } else { &goal }" } else { "&goal" };
+        let not_numbers =
+            "\n    if !see(&[0.0; N], parameters).iter().all(|x| x.is_finite()) {\n        return ";
         let given_check = "\n    if !given.iter().all(|x| x.is_finite()) {\n        return IkResult::new(IkStatus::NotFinite, off);\n    }";
         let max = if is_closed { "SOLVE_MAX".to_string() } else { MAX.to_string() };
         let branch = if is_closed {
@@ -136,6 +139,11 @@ impl Controller<'_> {
             .replace("@range@", self.range())
             .replace("@nearest@", &nearest)
             .replace("@given_check@", &either(has_given, given_check))
+            .replace(
+                "@parameters_check@",
+                &either(p, &format!("{not_numbers}IkResult::new(IkStatus::NotFinite, off);\n    }}")),
+            )
+            .replace("@parameters_check_choice@", &either(p, &format!("{not_numbers}choice;\n    }}")))
             .replace("@given_parameter@", &either(has_given, &format!(", given: &[f64; {g}]")))
             .replace("@given_passed@", if has_given { ", given" } else { "" })
             .replace("@given_test@", &either(has_given, &format!(", &{}", array(test_given))))

@@ -1,7 +1,7 @@
-//! The inverse function of an arm with six joints and no closed form: elimination, in Rust, C, JavaScript, Python and MATLAB.
+//! The inverse function of an arm with six joints and no closed form: elimination, in every language but CUDA.
 //!
-//! Rust embeds the files of the crate `denavit-elimination` as they are; C has the same algorithm in `general/*.c`, JavaScript,
-//! Python and MATLAB in folders of their names, the latter two over arrays.
+//! Rust embeds the files of the crate `denavit-elimination` as they are; C and JavaScript have the same algorithm in `general/*.c`
+//! and `general/javascript`, Python and MATLAB in folders of their names, over arrays.
 
 mod c;
 mod javascript;
@@ -83,9 +83,9 @@ impl General {
         let (axes, plan, tables) = (axes.clone(), plan.clone(), plan.tables());
         match options.language {
             Language::Rust => {}
-            Language::C | Language::IkFast | Language::Python | Language::JavaScript | Language::Matlab
+            Language::C | Language::IkFast | Language::Python | Language::Matlab | Language::JavaScript
                 if tables.is_some() => {}
-            Language::C | Language::IkFast | Language::Python | Language::JavaScript | Language::Matlab => {
+            Language::C | Language::IkFast | Language::Python | Language::Matlab | Language::JavaScript => {
                 return Err(Some(format!(
                     "elimination in {} serves arms with at most one prismatic joint; --language rust serves this one",
                     options.language.name()
@@ -93,8 +93,7 @@ impl General {
             }
             Language::Cuda => {
                 return Err(Some(
-                    "elimination is generated in C, Rust, Python, JavaScript and MATLAB (--language c, rust, python, javascript, matlab; \
-                     ikfast is C++)"
+                    "elimination is generated in C, Rust, Python, MATLAB and JavaScript (--language ikfast is C++)"
                         .into(),
                 ));
             }
@@ -146,9 +145,9 @@ impl General {
         match (&self.tables, self.language) {
             (Some(tables), Language::C) => c::attachment(self, tables, true),
             (Some(tables), Language::IkFast) => c::attachment(self, tables, false),
-            (Some(tables), Language::JavaScript) => javascript::attachment(self, tables),
             (Some(tables), Language::Python) => python::attachment(self, tables),
             (Some(tables), Language::Matlab) => matlab::attachment(self, tables),
+            (Some(tables), Language::JavaScript) => javascript::attachment(self, tables),
             _ => rust::attachment(self),
         }
     }

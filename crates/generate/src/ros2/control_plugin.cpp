@@ -180,7 +180,9 @@ private:
     if (parameters->has_parameter(prefix + "alpha")
       && parameters->get_parameter(prefix + "alpha", value))
     {
-      alpha_ = value.as_double();
+      // YAML reads 1 as a whole number.
+      const bool is_whole = value.get_type() == rclcpp::ParameterType::PARAMETER_INTEGER;
+      alpha_ = is_whole ? static_cast<double>(value.as_int()) : value.as_double();
     }
     is_begun_ = alpha_ > 0.0;
     if (!is_begun_) {

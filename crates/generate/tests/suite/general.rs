@@ -373,7 +373,7 @@ fn what_is_not_generated_is_said() {
     let found = generated(&catalogued("oblique-6r"), Language::Cuda, &functions);
     let why = found.refused.expect("a reason");
     assert!(found.inverse.is_none() && why.contains("elimination is generated in C"), "{why}");
-    for language in [Language::C, Language::JavaScript, Language::Python, Language::Matlab] {
+    for language in [Language::C, Language::Python, Language::Matlab, Language::JavaScript] {
         let why = generated(&read(TWO_SLIDES), language, &functions).refused.expect("a reason");
         assert!(why.contains("at most one prismatic joint"), "{why}");
     }

@@ -139,7 +139,9 @@ pub fn named(block: &Block, names: &Vocabulary) -> Option<Named> {
     if places.is_empty() {
         return None;
     }
+    let is_column = rows.iter().all(|row| row.len() == 1);
     let called = |letter: &str, (r, c): (usize, usize)| match r.max(c) < 9 {
+        _ if is_column => format!("{letter}{}", r + 1),
         true => format!("{letter}{}{}", r + 1, c + 1),
         false => format!("{letter}{}_{}", r + 1, c + 1),
     };

@@ -8,7 +8,8 @@ use denavit::geometry::orientation::OrientationSet;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
     About, Change, CheckOptions, Checked, Condition, Finding, Formula, Instead, Jacobian, Meaning, Noted,
-    Placement, Remark, Sense, ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, check,
+    Placement, ReadWith, Remark, Sense, ShortRow, Skipped, SlipKind, Spoken, TableCell, Unproved, Unreadable,
+    Whereabouts, Zeros, check,
 };
 use denavit_reading::document::Format;
 use denavit_reading::slip::Slip;
@@ -224,6 +225,12 @@ fn conditions_and_doubts() {
         Unproved::NoPose,
         Unproved::Unsupported,
         Unproved::OtherConfiguration,
+        Unproved::AgainstWords(Spoken::Gravity),
+        Unproved::AgainstWords(Spoken::Shape),
+        Unproved::AgainstWords(Spoken::Centres),
+        Unproved::AgainstWords(Spoken::Inertias),
+        Unproved::AgainstWords(Spoken::LeftOut),
+        Unproved::AgainstWords(Spoken::Links),
         Unproved::UnknownColumn,
         Unproved::OtherJoints,
         Unproved::OtherNames,
@@ -352,6 +359,29 @@ fn what_is_not_read() {
         "follows from `A_2` in line 7, which is wrong",
         "découle de `A_2`, ligne 7, qui est faux",
     );
+    let places = [
+        Whereabouts::Joint,
+        Whereabouts::End,
+        Whereabouts::Middle,
+        Whereabouts::FromJoint(formula("lc1")),
+        Whereabouts::FromEnd(formula("lc1")),
+        Whereabouts::At([formula("a"), formula("b"), formula("c")]),
+    ];
+    for at in places {
+        both(&|w| {
+            w.noted(&Noted::ReadWith(vec![ReadWith::Mass { mass: formula("m1"), link: 0, at: at.clone() }]))
+        });
+    }
+    for read in [
+        ReadWith::Point { link: 1 },
+        ReadWith::Rod { link: 1 },
+        ReadWith::Inertia { inertia: formula("I2"), link: 1, is_at_joint: true },
+        ReadWith::Inertia { inertia: formula("I2"), link: 1, is_at_joint: false },
+        ReadWith::Rotor { inertia: formula("Jm"), joint: 0 },
+        ReadWith::Gravity([formula("a"), formula("b"), formula("c")]),
+    ] {
+        both(&|w| w.noted(&Noted::ReadWith(vec![read.clone()])));
+    }
     let together = |spurious| Composed { poses: 120, existing: 480, yielded: 240, spurious, open: vec![] };
     for note in [
         Noted::TooLong { bytes: 9_000_000, most: 8_000_000 },

@@ -21,14 +21,16 @@ impl Reader {
             (mass.clone(), &entries)
         else {
             // What is there and no number was said.
-            let given = |n: &&str| inertia.is_none_or(|e| e.attribute(n).is_none());
-            let entries: Vec<&str> = names.iter().filter(|n| given(n)).copied().collect();
-            let missing = match (mass, inertia, &entries[..]) {
-                (_, None, _) => "no <inertia>".into(),
-                (None, ..) => "no <mass value=\"…\"/>".into(),
-                (.., [only]) => format!("no `{only}` in <inertia>"),
-                (.., [all @ .., last]) => format!("no `{}` and `{last}` in <inertia>", all.join("`, `")),
-                (.., []) => "no numbers in <inertia>".into(),
+            let is_given = |e: Option<Element>, n: &str| e.is_some_and(|e| e.attribute(n).is_some());
+            let weight = inertial.all("mass").next();
+            let entries: Vec<&str> =
+                names.iter().filter(|n| inertia.is_some() && !is_given(inertia, n)).copied().collect();
+            let missing = match (inertia, &entries[..]) {
+                (None, _) => "no <inertia>".into(),
+                _ if !is_given(weight, "value") => "no <mass value=\"…\"/>".into(),
+                (_, [only]) => format!("no `{only}` in <inertia>"),
+                (_, [all @ .., last]) => format!("no `{}` and `{last}` in <inertia>", all.join("`, `")),
+                (_, []) => return None,
             };
             self.out.warning(inertial.span(), format!("<inertial> has {missing}: it is left"));
             return None;

@@ -85,6 +85,7 @@ impl DynamicModel {
             Ground::Failed => (base.inverse.clone(), base.ground_of_tree(&formulas, &base.inverse)),
             _ => (short, ground),
         };
+        let torques = named_apart(torques, &formulas);
         DynamicModel { formulas, base, torques, ground, parts: None }
     }
 
@@ -102,9 +103,15 @@ impl DynamicModel {
             Ground::Failed => (base.inverse.clone(), base.ground(d, &formulas, &base.inverse)),
             _ => (torques, ground),
         };
+        let torques = named_apart(torques, &formulas);
         let parts = (formulas.q.len() <= WRITTEN_OUT).then(|| Parts::new(d, &formulas, &base));
         DynamicModel { formulas, base, torques, ground, parts: parts.flatten() }
     }
+}
+
+/// The program with names that no parameter has: those that groupings stand for are none of its inputs.
+fn named_apart(torques: Program, formulas: &Formulas) -> Program {
+    torques.named_apart(&formulas.parameters.iter().map(|p| p.symbol.name().to_string()).collect())
 }
 
 impl DynamicModel {

@@ -6,6 +6,7 @@ use crate::geometry::{Axis, Body, PARAMETERS, Rotation, Transform, Vector};
 use crate::mechanism::{Affine, Lengths, MissingValue, MovingAxes, Robot};
 use crate::scalar::Scalar;
 use denavit_symbolic::{Expr, Rational, Symbol};
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// The acceleration of gravity where a description says nothing of it, along −z of the base, m/s²: as a decimal.
@@ -247,6 +248,8 @@ pub enum NoNumbers {
     NoMasses,
     /// Parameters without value.
     Missing(MissingValue),
+    /// What has this number among the rows, from 0, weighs less than nothing.
+    NegativeMass(usize, Option<String>),
 }
 
 impl fmt::Display for NoNumbers {
@@ -254,6 +257,8 @@ impl fmt::Display for NoNumbers {
         match self {
             NoNumbers::NoMasses => f.write_str("the description says nothing of masses"),
             NoNumbers::Missing(missing) => missing.fmt(f),
+            NoNumbers::NegativeMass(_, Some(name)) => write!(f, "the mass behind `{name}` is negative"),
+            NoNumbers::NegativeMass(row, None) => write!(f, "the mass of row {} is negative", row + 1),
         }
     }
 }
@@ -264,6 +269,19 @@ impl Description {
     /// Whether the description says something of masses.
     pub fn has_masses(&self) -> bool {
         self.rows.iter().any(|r| r.body().is_some())
+    }
+
+    /// Whether no row weighs less than nothing, as far as masses have values.
+    ///
+    /// # Errors
+    /// The first that does.
+    pub(super) fn no_negative_mass(&self) -> Result<(), NoNumbers> {
+        let is_negative =
+            |r: &Row| r.mass.is_some_and(|m| m.eval(|s| self.value(s)).is_ok_and(|mass| mass < 0.0));
+        match self.rows.iter().position(is_negative) {
+            Some(row) => Err(NoNumbers::NegativeMass(row, self.rows[row].name.clone())),
+            None => Ok(()),
+        }
     }
 
     /// The acceleration of gravity in the base, m/s².
@@ -279,12 +297,13 @@ impl Formulas {
     /// the number of their axis, XX1 … M1, about the origins of their own frames; the drives have none. Gravity along an axis
     /// of the base has the symbol g.
     pub fn new(d: &Description) -> Self {
-        Self::with(d, |_, _| None)
+        Self::with(d, false)
     }
 
-    /// The same with a symbol for each number that is not 0 of a link: XX1 … M1, with that value.
+    /// The same with a symbol for each of the ten numbers of a link that is not 0: XX1 … M1, with that value where the lengths in it have
+    /// values. A link with names of its own, m1 or lc1, keeps them, with the numbers beside them.
     pub fn named(d: &Description) -> Self {
-        Self::with(d, |e, named| e.symbols().is_empty().then(|| named(Some(e))))
+        Self::with(d, true)
     }
 
     /// The same with the numbers of links and of gravity.
@@ -320,10 +339,7 @@ impl Formulas {
         Formulas { parameters: names.parameters, ..self }
     }
 
-    fn with(
-        d: &Description,
-        mut instead: impl FnMut(Expr, &mut dyn FnMut(Option<Expr>) -> Expr) -> Option<Expr>,
-    ) -> Self {
+    fn with(d: &Description, is_named: bool) -> Self {
         let robot = Robot::symbolic(d);
         let mut names = Names { parameters: d.parameters.clone() };
         let bodies: Vec<Body<Expr>> =
@@ -331,14 +347,18 @@ impl Formulas {
         let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
         let mut dynamics = Dynamics::new(&robot, &bodies, drives, d.gravity_or_default());
         let is_generic = !d.has_masses();
+        let lengths = of_table(d);
         for (k, link) in dynamics.links.iter_mut().enumerate() {
             let given = link.body.parameters();
+            let is_in_numbers =
+                is_named && given.iter().flat_map(|e| e.symbols()).all(|s| lengths.contains(&s));
             let all: [Expr; 10] = std::array::from_fn(|p| {
                 let mut named = |value| names.symbol(&format!("{}{}", PARAMETERS[p], k + 1), value);
                 match (is_generic, given[p].is_zero()) {
                     (true, _) => named(None),
                     (false, true) => given[p],
-                    (false, false) => instead(given[p], &mut named).unwrap_or(given[p]),
+                    (false, false) if is_in_numbers => named(valued(d, given[p])),
+                    (false, false) => given[p],
                 }
             });
             link.body = Body::of(all);
@@ -354,7 +374,13 @@ impl Formulas {
         let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
         let rates = |prefix: &str| -> Vec<Symbol> {
             let behind = |s: &Symbol| s.name().trim_start_matches('q').to_string();
-            q.iter().map(|s| Symbol::new(&format!("{prefix}{}", behind(s)))).collect()
+            let free = |mut name: String| {
+                while names.parameters.iter().any(|p| *p.symbol.name() == *name) {
+                    name.push('_');
+                }
+                Symbol::new(&name)
+            };
+            q.iter().map(|s| free(format!("{prefix}{}", behind(s)))).collect()
         };
         let (qd, qdd) = (rates("qd"), rates("qdd"));
         Formulas { dynamics, qd, qdd, q, parameters: names.parameters, is_generic, payload: vec![] }
@@ -379,6 +405,18 @@ impl Formulas {
     pub fn value(&self, symbol: Symbol) -> Option<f64> {
         self.parameters.iter().find(|p| p.symbol == symbol)?.number()
     }
+}
+
+/// The symbols of a table.
+fn of_table(d: &Description) -> BTreeSet<Symbol> {
+    let rows = d.rows.iter().flat_map(|r| [r.theta, r.d, r.a, r.alpha, r.gamma, r.b]);
+    rows.chain(d.tool.matrix().into_iter().flatten()).flat_map(|e| e.symbols()).collect()
+}
+
+/// What a formula is with the values of a description's parameters, if all in it have one.
+fn valued(d: &Description, e: Expr) -> Option<Expr> {
+    let value = e.substitute(|s| d.parameters.iter().find(|p| p.symbol == s)?.value);
+    value.symbols().is_empty().then_some(value)
 }
 
 /// The parameters so far.
@@ -411,7 +449,7 @@ impl Dynamics<f64> {
     /// The model of a description in numbers.
     ///
     /// # Errors
-    /// If the description says nothing of masses, or a parameter has no value.
+    /// If the description says nothing of masses, a mass is negative, or a parameter has no value.
     pub fn numeric(d: &Description) -> Result<Self, NoNumbers> {
         if !d.has_masses() {
             return Err(NoNumbers::NoMasses);
@@ -441,6 +479,7 @@ impl Dynamics<f64> {
             }
         }
         let gravity = d.gravity_or_default().map(&mut number);
+        d.no_negative_mass()?;
         if missing.is_empty() {
             Ok(Dynamics::new(&robot, &bodies, drives, gravity))
         } else {

@@ -29,6 +29,8 @@ pub enum Unknown {
     NoValue(String),
     /// This joint has an axis without direction.
     NoAxis(String),
+    /// This body weighs less than nothing.
+    NegativeMass(String),
 }
 
 impl fmt::Display for Unknown {
@@ -38,6 +40,7 @@ impl fmt::Display for Unknown {
             Unknown::Unweighed(body) => write!(f, "not all of what `{body}` weighs is known"),
             Unknown::NoValue(what) => write!(f, "a number of `{what}` has no value"),
             Unknown::NoAxis(joint) => write!(f, "the axis of `{joint}` has no direction"),
+            Unknown::NegativeMass(body) => write!(f, "the mass of `{body}` is negative"),
         }
     }
 }
@@ -48,7 +51,7 @@ impl OfTree<f64> {
     /// The dynamics of all joints that move, in numbers; gravity along −z of the root where the mechanism says nothing of it.
     ///
     /// # Errors
-    /// If masses or values are missing, or an axis has no direction.
+    /// If masses or values are missing, a mass is negative, or an axis has no direction.
     pub fn new(m: &Mechanism) -> Result<Self, Unknown> {
         Self::of(m, number, |axis| {
             let z = axis.scale(1.0 / axis.norm());
@@ -61,7 +64,7 @@ impl OfTree<Expr> {
     /// The same with its numbers exactly as they stand.
     ///
     /// # Errors
-    /// If masses or values are missing, or an axis has no direction.
+    /// If masses or values are missing, a mass is negative, or an axis has no direction.
     pub fn exact(m: &Mechanism) -> Result<Self, Unknown> {
         let known = |e: Expr| number(e).map(|_| e);
         Self::of(m, known, |axis| {
@@ -147,6 +150,9 @@ impl<T: Scalar> OfTree<T> {
                 let own: Option<Vec<T>> = mass.body().parameters().into_iter().map(&value).collect();
                 let own = own.and_then(|all| <[T; 10]>::try_from(all).ok());
                 let own = own.ok_or_else(|| Unknown::NoValue(body.name.clone()))?;
+                if number(mass.mass).is_some_and(|m| m < 0.0) {
+                    return Err(Unknown::NegativeMass(body.name.clone()));
+                }
                 links[*link].body = links[*link].body + Body::of(own).seen_from(frame);
             }
         }

@@ -181,7 +181,7 @@ impl fmt::Display for MotionError {
             }
             Self::Torque { joint, s } => write!(
                 f,
-                "at s = {s} joint {} cannot carry the arm at rest within its torque limits",
+                "at s = {s} joint {} cannot carry the arm at rest within its torque limits; motions that swing past are not looked for",
                 joint + 1
             ),
             Self::Stuck { s } => write!(f, "the limits forbid every motion behind s = {s}"),

@@ -405,3 +405,61 @@ fn divisors_are_known() {
     // The first pivot, from the tip, depends on parameters alone, here on one that is grouped.
     assert_eq!(of(F::Acceleration), ["ZZ2"]);
 }
+
+/// Numbers of links are arguments with --masses, whatever the lengths are: none stands in the program, and the torques are linear in each.
+#[test]
+fn numbers_of_links_are_arguments_beside_lengths_without_values() {
+    let rows: String = [("a1", 2.0, -0.2), ("a2", 3.0, -0.1)]
+        .iter()
+        .zip(1..)
+        .map(|((a, mass, x), k)| {
+            format!(
+                "[[joints]]\ntheta = 'q{k}'\na = '{a}'\nmass = '{mass}'\ncom = ['{x}', '0.01', 0]\ninertia = [0, 0, 0, '0.02', 0, '0.02']\n"
+            )
+        })
+        .collect();
+    for is_known in [true, false] {
+        let [first, second] = if is_known { ["0.7 m", "0.5 m"] } else { [""; 2] };
+        let lengths = format!("[parameters]\na1 = '{first}'\na2 = '{second}'\n");
+        let text = format!("name = 'n'\nconvention = 'standard'\ngravity = [0, '-9.81', 0]\n{lengths}{rows}");
+        let d = read_toml(&text).unwrap_or_else(|e| panic!("{text}\n{e:?}")).0;
+        for (masses, wanted) in [
+            (Masses::Links, &["M2", "ZZ1", "ZZ2", "MX1", "MX2", "MY1", "MY2"][..]),
+            (Masses::Base, &["ZZR1", "MXR1", "ZZ2", "MX2", "MY1", "MY2"]),
+        ] {
+            let all = DynamicPrograms::new(&d, masses).unwrap();
+            let program = all.program(F::Torque).unwrap().program;
+            let mut names: Vec<String> = program
+                .parameters()
+                .iter()
+                .map(|s| s.name().to_string())
+                .filter(|n| n != "a1" && n != "a2")
+                .collect();
+            names.sort();
+            let mut wanted: Vec<&str> = wanted.iter().copied().chain(["g"]).collect();
+            wanted.sort_unstable();
+            assert_eq!(names, wanted, "{masses:?}");
+            if !is_known {
+                continue;
+            }
+            // With what they are by the file the torques are those of the arm.
+            let (base, formulas) = (&all.model.base, &all.model.formulas);
+            let value = |s: &denavit_symbolic::Symbol| {
+                let grouped = base.parameters.iter().find(|p| p.is_grouped && p.symbol == *s);
+                grouped.map_or_else(|| formulas.value(*s), |p| base.value(formulas, p)).expect("a value")
+            };
+            let values: Vec<f64> = program.parameters().iter().map(value).collect();
+            let x = [0.3, -0.8, 1.2, 0.4, -0.7, 0.9];
+            let arm = Dynamics::numeric(&d).unwrap();
+            let found = program.compile(&values).scalar().eval(&x).to_vec();
+            close("torques", &found, &drive_torques(&arm, &x[..2], &x[2..4], &x[4..], None), 1e-12);
+        }
+    }
+    // Names of one's own are the arguments.
+    let own = "name = 'n'\nconvention = 'craig'\n[parameters]\nm = ''\nc = ''\n[[joints]]\ntheta = 'q1'\nmass = 'm'\ncom = ['c', 0, 0]\ninertia = [0, 0, 0, 0, 0, '0.02']\n[[joints]]\ntheta = 'q2'\nalpha = '90deg'\nmass = 3\ncom = ['0.1', 0, 0]\n";
+    let d = read_toml(own).unwrap().0;
+    let all = DynamicPrograms::new(&d, Masses::Links).unwrap();
+    let names: Vec<String> = all.parameters().iter().map(|s| s.name().to_string()).collect();
+    assert!(names.contains(&"m".to_string()) && names.contains(&"MX2".to_string()), "{names:?}");
+    assert!(!names.iter().any(|n| n == "M1" || n == "ZZ1"), "{names:?}");
+}

@@ -11,6 +11,7 @@ mod documents_jacobian;
 mod dynamics;
 mod dynamics_base;
 mod dynamics_files;
+mod dynamics_names;
 mod dynamics_programs;
 mod dynamics_recursion;
 mod dynamics_representatives;

@@ -1,6 +1,6 @@
 //! Timings within torque limits: as fast as can be computed by hand, within the limits at all times, at one of them nearly always.
 
-use crate::common::Random;
+use crate::common::{Random, share};
 use crate::dynamics::random_arm;
 use denavit::description::read_toml;
 use denavit::dynamics::{Dynamics, drive_torques, gravity_torques};
@@ -167,4 +167,70 @@ fn torque_limits_are_planned_with() {
         TorqueLimits::symmetric(arm.clone(), &[1.0, 0.0, 1.0]),
         Err(MotionError::NotPositive(..))
     ));
+}
+
+/// A planned motion is slowed down in the end by what was exceeded between the points of its grid: no torque, velocity or acceleration is
+/// beyond its limit at any of 100,001 instants, and the fastest torque is at it.
+#[test]
+fn planned_motions_are_within_their_limits() {
+    let arms = ["planar-2r", "scara", "articulated-3r", "staubli-rx90"];
+    for round in 0..share(80, 12) {
+        let name = arms[round % arms.len()];
+        let mut d = random_arm(name, 700 + round as u64);
+        if round % 2 == 0 {
+            d.rows.iter_mut().for_each(|r| (r.viscous, r.coulomb) = (None, None));
+        }
+        let arm = Dynamics::numeric(&d).unwrap();
+        let n = arm.joints();
+        let mut random = Random(800 + round as u64);
+        let mut list = |low: f64, high: f64| -> Vec<f64> {
+            (0..n).map(|_| low + (high - low) * random.unit()).collect()
+        };
+        let points = vec![list(-1.5, 1.5), list(-1.5, 1.5), list(-1.5, 1.5)];
+        // What carries the arm anywhere, and something more.
+        let mut torques = list(0.5, 4.0);
+        for k in 0..400 {
+            let q: Vec<f64> = (0..n).map(|j| 3.0 * (f64::from(k) * 0.618 * (j + 1) as f64).sin()).collect();
+            for ((t, g), drive) in torques.iter_mut().zip(gravity_torques(&arm, &q)).zip(&arm.drives) {
+                *t = t.max(1.3 * (g.abs() + drive.coulomb));
+            }
+        }
+        let limits = TorqueLimits::symmetric(arm, &torques).unwrap();
+        let known = KnownLimits {
+            velocity: Some(list(3.0, 30.0)),
+            torque: Some(limits.clone()),
+            ..KnownLimits::default()
+        };
+        let robot = denavit::Robot::numeric(&d).unwrap();
+        let planned = Planned::new(&d, &robot, Wish::Joints(points), &known, &PlanOptions::default());
+        let planned = planned.unwrap_or_else(|e| panic!("{name}, round {round}: {e}"));
+        let motion = &planned.trajectory;
+        let (mut torque, mut velocity, mut worst) = (0.0_f64, 0.0_f64, String::new());
+        for k in 0..=100_000 {
+            let state = motion.eval(motion.duration() * f64::from(k) / 1e5);
+            let needed = drive_torques(limits.arm(), &state.q, &state.qd, &state.qdd, None);
+            for (j, (range, mut needed)) in limits.ranges().iter().zip(needed).enumerate() {
+                // Of a joint that turns round just there, or begins or ends to move, Coulomb's friction is either.
+                let coulomb = limits.arm().drives[j].coulomb;
+                if state.qd[j].abs() < 1e-4 {
+                    let is_counted = state.qd[j] != 0.0;
+                    let without = needed - f64::from(u8::from(is_counted)) * coulomb * state.qd[j].signum();
+                    needed = without.signum() * (without.abs() - coulomb).max(0.0);
+                }
+                let share = range.share(needed);
+                if share > torque {
+                    (torque, worst) = (share, format!("joint {j}, {state:?}"));
+                }
+            }
+            let rates = state.qd.iter().zip(known.velocity.as_ref().unwrap());
+            velocity = rates.fold(velocity, |m, (v, l)| m.max(v.abs() / l));
+        }
+        let held = planned.timing.held.unwrap();
+        let what = format!("{name}, round {round}: {torque} {velocity} {held:?} {worst}");
+        assert!(torque < 1.0 + 1e-5 && velocity < 1.0 + 1e-5, "{what}");
+        // With viscous friction speeds are searched for.
+        let least = if limits.arm().drives.iter().any(|d| d.viscous != 0.0) { 0.9 } else { 0.99 };
+        assert!(torque > least || velocity > least, "{what}");
+        assert!(held.instants > 10_000 && held.torque.is_some_and(|t| t <= 1.0 + 1e-8), "{held:?}");
+    }
 }

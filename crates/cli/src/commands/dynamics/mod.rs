@@ -41,6 +41,9 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if !asks_formulas && (arguments.keep.is_some() || arguments.drop.is_some()) {
         return Err(Failure::Usage("--keep and --drop are for --symbolic and --explain".into()));
     }
+    if arguments.at.is_some() && arguments.wrench.is_none() && arguments.input.is_none() {
+        return Err(Failure::Usage("--at says where a wrench is exerted: give --wrench, too".into()));
+    }
     if arguments.whole {
         return tree::run(arguments);
     }
@@ -75,6 +78,7 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if let Some(duration) = arguments.simulate {
         return simulation::run(&description, &arm, arguments, duration, &q, given);
     }
+    arm.say_stuck(&given.qd);
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {
         true => format!("{}\n", denavit_wire::text(&answer)),
@@ -101,13 +105,14 @@ struct Arm {
 /// An arm with masses in numbers.
 ///
 /// # Errors
-/// If the description says nothing of masses, or a parameter has no value.
+/// If the description says nothing of masses, a mass is negative, or a parameter has no value.
 pub fn numeric(d: &Description, file: &str) -> Result<Dynamics<f64>, Failure> {
     Dynamics::numeric(d).map_err(|why| match why {
         NoNumbers::NoMasses => Failure::Input(format!(
             "error: {file}: it says nothing of masses\n  = hint: a URDF may, for the links of another --tip; or mass, com and inertia in a robot file"
         )),
         NoNumbers::Missing(missing) => without_values(d, file, &missing),
+        NoNumbers::NegativeMass(..) => Failure::Input(format!("error: {file}: {why}; no motion follows from it")),
     })
 }
 
@@ -131,6 +136,19 @@ impl Arm {
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some((robot, at)) })
+    }
+
+    /// Says which joints stand still and have Coulomb's friction, which is then not known.
+    fn say_stuck(&self, qd: &[f64]) {
+        let all = self.joints.iter().zip(qd).zip(&self.dynamics.drives);
+        let stands = all.filter(|((_, rate), drive)| **rate == 0.0 && drive.coulomb != 0.0);
+        let names: Vec<&str> = stands.map(|((name, _), _)| name.as_str()).collect();
+        if !names.is_empty() {
+            note(&format!(
+                "note: Coulomb's friction counts as 0 of joints that stand still ({}); there it is whatever holds them, up to FS",
+                names.join(", ")
+            ));
+        }
     }
 
     /// Everything about a state.

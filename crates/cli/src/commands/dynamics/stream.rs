@@ -88,6 +88,9 @@ impl States {
                 if fields.contains_key("qdd") && fields.contains_key("tau") {
                     return Err("both `qdd` and `tau`: one follows from the other".into());
                 }
+                if given.derivatives && given.wrench.is_some() {
+                    return Err("--derivatives are without a wrench".into());
+                }
                 Ok((q.ok_or("no `q`")?, given))
             }
             _ => Err(format!("not {WHAT}")),

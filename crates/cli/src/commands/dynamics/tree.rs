@@ -20,7 +20,7 @@ pub fn unknown(file: &str, why: &Unknown) -> Failure {
         Unknown::NoMasses => {
             "\n  = hint: a URDF or an MJCF does; a tree of rows has them as mass, com and inertia"
         }
-        Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) => "",
+        Unknown::Unweighed(_) | Unknown::NoValue(_) | Unknown::NoAxis(_) | Unknown::NegativeMass(_) => "",
     };
     Failure::Input(format!("error: {file}: {why}{hint}"))
 }
@@ -72,6 +72,7 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     let given = Given::at_rest(&moving, arguments)?;
     let names = moving.iter().map(|j| j.0.clone()).collect();
     let arm = Arm { dynamics: found.dynamics, name: m.name.clone(), joints: names, exerts: None };
+    arm.say_stuck(&given.qd);
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {
         true => format!("{}\n", denavit_wire::text(&answer)),

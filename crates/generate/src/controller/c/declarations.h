@@ -26,7 +26,8 @@ typedef enum @name@_ik_status {
     @NAME@_IK_UNDECIDED = 3,
     /* The rotation is off by more than @NAME@_IK_ROTATION_TOLERANCE. Nothing is listed. */
     @NAME@_IK_NOT_A_ROTATION = 4,
-    /* A number that is read is infinite or none, or a lower limit is above the upper one. */
+    /* A number that is read (the pose, previous or given values, parameters, limits) is infinite or none; a previous value is
+       beyond 1e6 rad, or 1e6 sizes of the arm; or limits exclude all values: a lower one above the upper one, say. */
     @NAME@_IK_NOT_FINITE = 5,
     /* There are solutions, and none that is known is within the limits. */
     @NAME@_IK_OUTSIDE_LIMITS = 6
@@ -58,13 +59,14 @@ typedef struct @name@_ik_result {
     @name@_ik_solution solutions[@NAME@_IK_MAX];
 } @name@_ik_result;
 
-/* What joints may be (rad, m). */
+/* What joints may be (rad, m). What is beyond 1e6 rad, or 1e6 sizes of the arm, is no limit. */
 typedef struct @name@_ik_limits {
     double lower[@n@];
     double upper[@n@];
 } @name@_ik_limits;
 
-/* What @name@_ik_nearest answers. */
+/* What @name@_ik_nearest answers. With NOT_A_ROTATION and NOT_FINITE q is the previous configuration, and distance, missed_shift
+   and missed_turn are HUGE_VAL. */
 typedef struct @name@_ik_choice {
     /* 1 if q has the pose and is within the limits. */
     int is_found;
@@ -78,13 +80,23 @@ typedef struct @name@_ik_choice {
     /* How far the rotation of the pose was from the nearest one, by its largest entry. */
     double off;
     /* By how much q misses the pose: a shift (m) and a turn (rad); 0 but for rounding where it is solved.
-       Out of reach, this is at most how far. */
+       Out of reach, the least distance is at most that. */
     double missed_shift;
     double missed_turn;
 } @name@_ik_choice;
 
 /* The limits of the robot's description; where it has none, minus and plus HUGE_VAL. */
 extern const @name@_ik_limits @name@_limits;
+
+/*
+ * Work is bounded: no loop waits for convergence. @name@_ik calls @name@_solve once and, where that says that there may be more, for
+ * each of @NAME@_IK_NEIGHBOURS poses beside, and follows what it finds by Newton's method, at most 40 steps each: such calls take some
+ * hundred to some thousand times as long as others. @name@_ik_nearest calls @name@_ik once@given_bound@, and moves along families in at
+ * most 60 steps a start. Nothing is allocated; each call may be made by any number of threads.
+ *
+ * No pointer but that to limits may be NULL. A pose is not changed. The previous configuration may be the q of the choice that is
+ * written. With a negative `room` nothing is written.
+ */
 
 /*
  * All configurations that have the pose, each once. Of the pose the first three rows are read, @read@.
@@ -108,7 +120,7 @@ extern const @name@_ik_limits @name@_limits;
 /*
  * All configurations of @name@_ik within the limits (NULL: those of the robot), with their copies whole turns
  * away. An angle without a limit takes one turn. Writes the first `room` of them; *count is how many
- * there are. Of families there is one member. The status is that of @name@_ik, or OUTSIDE_LIMITS.
+ * there are, at most 2147483647. Of families there is one member, within the limits if moving along the family leads there. The status is that of @name@_ik, or OUTSIDE_LIMITS.
  */
 @name@_ik_status @name@_ik_all_within_limits(
     double pose[4][4],@given_declaration@

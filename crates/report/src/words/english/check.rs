@@ -6,8 +6,9 @@ use crate::words::check::{ROUNDING, percent, positive, rows_of};
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
-    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense,
-    ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, ReadWith,
+    Remark, Sense, ShortRow, Skipped, SlipKind, Spoken, TableCell, Unproved, Unreadable, Whereabouts, Zeros,
+    decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -258,6 +259,9 @@ impl Check for English {
             Unproved::OpenReading => {
                 "nothing says how masses, inertias and gravity are meant so that it could be refuted"
             }
+            Unproved::AgainstWords(of) => {
+                return format!("it is right only as the words of the document contradict it: {}", spoken(of));
+            }
             Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",
@@ -396,6 +400,10 @@ impl Check for English {
             Noted::PassedOver(why) => format!("passed over: {}", self.unreadable(why)),
             Noted::NotRead(why) => format!("not read: {}", self.unreadable(why)),
             Noted::Together(composed) => together(composed),
+            Noted::ReadWith(all) => {
+                let all: Vec<String> = all.iter().map(read_with).collect();
+                format!("read with {}: most is right so, and the text does not say it", all.join("; "))
+            }
         }
     }
 
@@ -418,9 +426,56 @@ impl Check for English {
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
-            | Noted::Together(_) => return None,
+            | Noted::Together(_)
+            | Noted::ReadWith(_) => return None,
         };
         Some(hint.into())
+    }
+}
+
+/// How something of a link, or gravity, is read.
+fn read_with(what: &ReadWith) -> String {
+    match what {
+        ReadWith::Mass { mass, link, at } => {
+            let link = link + 1;
+            let at = match at {
+                Whereabouts::Joint => format!("on joint {link}"),
+                Whereabouts::End => format!("at the end of link {link}"),
+                Whereabouts::Middle => format!("in the middle of link {link}"),
+                Whereabouts::FromJoint(length) => {
+                    format!("{length} from joint {link} towards the end of the link")
+                }
+                Whereabouts::FromEnd(length) => {
+                    format!("{length} from the end of link {link} towards its joint")
+                }
+                Whereabouts::At([x, y, z]) => format!("at ({x}, {y}, {z}) in the frame of link {link}"),
+            };
+            format!("the mass {mass} {at}")
+        }
+        ReadWith::Point { link } => format!("link {} without an inertia about its centre of mass", link + 1),
+        ReadWith::Rod { link } => format!("link {} as a thin rod", link + 1),
+        ReadWith::Inertia { inertia, link, is_at_joint: true } => {
+            format!("{inertia} about joint {}", link + 1)
+        }
+        ReadWith::Inertia { inertia, link, is_at_joint: false } => {
+            format!("{inertia} about the centre of mass of link {}", link + 1)
+        }
+        ReadWith::Rotor { inertia, joint } => {
+            format!("{inertia} as the inertia of the rotor of joint {}", joint + 1)
+        }
+        ReadWith::Gravity([x, y, z]) => format!("the acceleration of gravity ({x}, {y}, {z}) in the base"),
+    }
+}
+
+/// What words say of masses and gravity.
+fn spoken(of: Spoken) -> &'static str {
+    match of {
+        Spoken::Gravity => "they say where gravity pulls",
+        Spoken::Shape => "they say what the links are, and where their masses are",
+        Spoken::Centres => "they say from where the centres of mass are measured",
+        Spoken::Inertias => "they say about which points the inertias are",
+        Spoken::LeftOut => "they say that the links have inertias, which the formulas leave out",
+        Spoken::Links => "they say of which link each name is",
     }
 }
 

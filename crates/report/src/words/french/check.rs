@@ -7,8 +7,9 @@ use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
-    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense,
-    ShortRow, Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, ReadWith,
+    Remark, Sense, ShortRow, Skipped, SlipKind, Spoken, TableCell, Unproved, Unreadable, Whereabouts, Zeros,
+    decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -280,6 +281,9 @@ impl Check for French {
             Unproved::OpenReading => {
                 "rien ne dit comment les masses, les inerties et la pesanteur s'entendent, ce qu'il faudrait pour la réfuter"
             }
+            Unproved::AgainstWords(of) => {
+                return say!("elle n'est juste que contre ce que dit le texte : {}", spoken(of));
+            }
             Unproved::UnknownColumn => "la colonne n'est pas connue",
             Unproved::OtherJoints => "il n'a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",
@@ -431,6 +435,10 @@ impl Check for French {
             Noted::PassedOver(why) => say!("laissé de côté : ") + &self.unreadable(why),
             Noted::NotRead(why) => say!("non lu : ") + &self.unreadable(why),
             Noted::Together(composed) => together(composed),
+            Noted::ReadWith(all) => {
+                let all: Vec<String> = all.iter().map(read_with).collect();
+                say!("lu avec {} ; ainsi l'essentiel est juste, et le texte ne le dit pas", all.join(" ; "))
+            }
         }
     }
 
@@ -453,7 +461,8 @@ impl Check for French {
             | Noted::NotSet(..)
             | Noted::UnknownRobot(_)
             | Noted::NoSuchTable
-            | Noted::Together(_) => return None,
+            | Noted::Together(_)
+            | Noted::ReadWith(_) => return None,
         };
         Some(hint.into())
     }
@@ -465,6 +474,56 @@ fn genitive(noun: &str) -> String {
         Some(rest) => format!("du {rest}"),
         None if noun.starts_with("une ") => format!("d'{noun}"),
         None => format!("de {noun}"),
+    }
+}
+
+/// How something of a link, or gravity, is read.
+fn read_with(what: &ReadWith) -> String {
+    match what {
+        ReadWith::Mass { mass, link, at } => {
+            let link = link + 1;
+            let at = match at {
+                Whereabouts::Joint => format!("sur l'articulation {link}"),
+                Whereabouts::End => format!("au bout du segment {link}"),
+                Whereabouts::Middle => format!("au milieu du segment {link}"),
+                Whereabouts::FromJoint(length) => {
+                    format!("à {length} de l'articulation {link}, vers le bout du segment")
+                }
+                Whereabouts::FromEnd(length) => {
+                    format!("à {length} du bout du segment {link}, vers son articulation")
+                }
+                Whereabouts::At([x, y, z]) => format!("en ({x}, {y}, {z}) dans le repère du segment {link}"),
+            };
+            format!("la masse {mass} {at}")
+        }
+        ReadWith::Point { link } => {
+            format!("le segment {} sans inertie autour de son centre de masse", link + 1)
+        }
+        ReadWith::Rod { link } => format!("le segment {} comme une tige mince", link + 1),
+        ReadWith::Inertia { inertia, link, is_at_joint: true } => {
+            format!("{inertia} autour de l'articulation {}", link + 1)
+        }
+        ReadWith::Inertia { inertia, link, is_at_joint: false } => {
+            format!("{inertia} autour du centre de masse du segment {}", link + 1)
+        }
+        ReadWith::Rotor { inertia, joint } => {
+            format!("{inertia} comme inertie du rotor de l'articulation {}", joint + 1)
+        }
+        ReadWith::Gravity([x, y, z]) => {
+            format!("l'accélération de la pesanteur ({x}, {y}, {z}) dans la base")
+        }
+    }
+}
+
+/// What words say of masses and gravity.
+fn spoken(of: Spoken) -> &'static str {
+    match of {
+        Spoken::Gravity => "la direction de la pesanteur",
+        Spoken::Shape => "ce que sont les segments, et où sont leurs masses",
+        Spoken::Centres => "d'où se mesurent les centres de masse",
+        Spoken::Inertias => "autour de quels points sont les inerties",
+        Spoken::LeftOut => "des inerties, que les formules n'ont pas",
+        Spoken::Links => "de quel segment est chaque nom",
     }
 }
 

@@ -234,7 +234,7 @@ impl DynamicPrograms {
     /// The functions of an arm. With [`Masses::Numbers`] what has a name in the description stays a parameter.
     ///
     /// # Errors
-    /// With [`Masses::Numbers`]: if the description says nothing of masses.
+    /// With [`Masses::Numbers`]: if the description says nothing of masses. If a mass is negative.
     pub fn new(d: &Description, masses: Masses) -> Result<Self, NoNumbers> {
         Self::with_loads(d, masses, Loads::default())
     }
@@ -243,11 +243,12 @@ impl DynamicPrograms {
     /// parameters.
     ///
     /// # Errors
-    /// With [`Masses::Numbers`]: if the description says nothing of masses.
+    /// With [`Masses::Numbers`]: if the description says nothing of masses. If a mass is negative.
     pub fn with_loads(d: &Description, masses: Masses, loads: Loads) -> Result<Self, NoNumbers> {
         if masses == Masses::Numbers && !d.has_masses() {
             return Err(NoNumbers::NoMasses);
         }
+        d.no_negative_mass()?;
         let formulas = match masses {
             Masses::Numbers => Formulas::in_numbers(d),
             Masses::Links | Masses::Base => Formulas::named(d),

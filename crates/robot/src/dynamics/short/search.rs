@@ -7,7 +7,7 @@ use crate::description::{Description, JointKind};
 use crate::dynamics::base::{BaseModel, inputs};
 use crate::dynamics::grouping::Grouped;
 use crate::dynamics::model::Formulas;
-use denavit_program::{Graph, Program, Value};
+use denavit_program::{Composer, Graph, Program, Value};
 use denavit_symbolic::{Angle, Expr, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -52,9 +52,35 @@ const ORDERS: u64 = 8;
 
 /// The shortest program found for the torques in base parameters: `t1` ….
 pub(in crate::dynamics) fn shortest(d: &Description, formulas: &Formulas, base: &BaseModel) -> Program {
-    let found = found(Wanted::Torques, d, formulas, base);
-    let all = found.into_iter().chain([base.inverse.clone()]).map(|p| p.shortened(0));
-    all.min_by_key(cost).map_or_else(|| base.inverse.clone(), |best| best.shortened(ORDERS))
+    let [own, in_units] = found(Wanted::Torques, d, formulas, base);
+    // A slide's force in a unit of length is divided by it again.
+    let forces =
+        own.first().map(|own| in_units.iter().filter_map(|p| with_forces(p, own, formulas)).collect());
+    let forces: Vec<Program> = forces.unwrap_or_default();
+    let all = own.into_iter().chain(in_units).chain(forces).chain([base.inverse.clone()]);
+    // Of those that are as short one that divides by nothing.
+    let all = all.map(|p| p.shortened(0)).map(|p| (cost(&p), p.divisors().len(), p));
+    let best = all.min_by_key(|(cost, divisors, _)| (*cost, *divisors));
+    best.map_or_else(|| base.inverse.clone(), |(.., best)| best.shortened(ORDERS))
+}
+
+/// A program with the forces of slides as another one has them; nothing where there are none.
+fn with_forces(program: &Program, other: &Program, formulas: &Formulas) -> Option<Program> {
+    let slides: Vec<bool> = (0..formulas.q.len())
+        .map(|j| {
+            let mut own = formulas.dynamics.links.iter().filter(|l| l.value.terms.iter().any(|t| t.0 == j));
+            own.all(|l| l.kind == JointKind::Prismatic)
+        })
+        .collect();
+    if !slides.contains(&true) {
+        return None;
+    }
+    let mut both = Composer::new(program.variables(), program.parameters());
+    let [of_program, of_other] = [program, other].map(|p| both.copy(p, |_| None));
+    let chosen = of_program.into_iter().zip(of_other).zip(&slides);
+    let chosen = chosen.map(|((own, other), slides)| if *slides { other } else { own });
+    let outputs: Vec<(String, Value)> = program.outputs().iter().map(|o| o.0.clone()).zip(chosen).collect();
+    Some(both.finish(&outputs))
 }
 
 /// The shortest program found for the inertia matrix in base parameters, row by row, by composite bodies; nothing where a link has a
@@ -64,15 +90,15 @@ pub(in crate::dynamics) fn shortest_inertia(
     formulas: &Formulas,
     base: &BaseModel,
 ) -> Option<Program> {
-    let all = found(Wanted::Inertia, d, formulas, base).into_iter().map(|p| p.shortened(0));
+    let all = found(Wanted::Inertia, d, formulas, base).into_iter().flatten().map(|p| p.shortened(0));
     all.min_by_key(cost).map(|best| best.shortened(ORDERS))
 }
 
-/// The program that is found in each unit of length.
-fn found(wanted: Wanted, d: &Description, formulas: &Formulas, base: &BaseModel) -> Vec<Program> {
+/// The program that is found with lengths as they are, and those in each unit of length.
+fn found(wanted: Wanted, d: &Description, formulas: &Formulas, base: &BaseModel) -> [Vec<Program>; 2] {
     let mut search = Search::new(wanted, d, formulas, base, Unit(None));
     let starts = search.starts();
-    let Some((_, choices)) = search.run(starts) else { return vec![] };
+    let Some((_, choices)) = search.run(starts) else { return [vec![], vec![]] };
     let own = search.program(&choices);
     let in_unit = |unit: Expr| {
         let mut search = Search::new(wanted, d, formulas, base, Unit(Some(unit)));
@@ -81,7 +107,7 @@ fn found(wanted: Wanted, d: &Description, formulas: &Formulas, base: &BaseModel)
         search.program(&choices)
     };
     let in_units = units(d, formulas).into_iter().filter_map(in_unit);
-    own.into_iter().chain(in_units).collect()
+    [own.into_iter().collect(), in_units.collect()]
 }
 
 fn cost(program: &Program) -> Cost {

@@ -1,6 +1,6 @@
 //! Timings of a path.
 
-use super::held::{TimedAlongPath, held};
+use super::held::{Hardest, Held, TimedAlongPath, held, slowed};
 use super::{PlanError, Timing, TimingLaw};
 use crate::description::Description;
 use crate::motion::timing::Grid;
@@ -35,7 +35,7 @@ pub(super) fn fastest<P: JointPath + 'static>(
     let looked_at;
     if limits.jerk().is_some() {
         let timed = JerkLimited::default().time_within(path, limits, torques)?;
-        looked_at = Some(held(&timed, slower(&timed, asked), limits, torques));
+        looked_at = Some(looked_at_in(&timed, limits, torques, asked));
         law = match torques {
             None => TimingLaw::JerkLimited,
             Some(_) => TimingLaw::WithinJerksAndTorques { accelerations },
@@ -47,21 +47,42 @@ pub(super) fn fastest<P: JointPath + 'static>(
             options.grid = Grid::Graded(WITHIN_TORQUES);
         }
         let timed = options.time_within(path, limits, torques)?;
-        looked_at = torques.map(|torques| held(&timed, slower(&timed, asked), limits, Some(torques)));
+        looked_at = torques.map(|torques| looked_at_in(&timed, limits, Some(torques), asked));
         law = match torques {
             None => TimingLaw::TimeOptimal,
             Some(torques) => TimingLaw::WithinTorques { accelerations, fastest: !torques.is_viscous() },
         };
         found = Box::new(timed);
     }
-    if let (Some((_, hardest)), Some(_)) = (&looked_at, asked)
+    if let (Some((_, _, hardest)), Some(_)) = (&looked_at, asked)
         && hardest.share > BEYOND
     {
         let joint = description.variables()[hardest.joint].symbol.name().to_string();
         return Err(PlanError::SlowTorque { joint, t: hardest.t, share: hardest.share });
     }
-    let timing = Timing { held: looked_at.map(|(held, _)| held), ..law.into() };
+    let timing = Timing { held: looked_at.map(|(_, held, _)| held), ..law.into() };
+    let found = match looked_at {
+        Some((factor, ..)) if factor > 1.0 => Box::new(Slowed::new(found, factor)),
+        _ => found,
+    };
     over_duration((found, timing), asked)
+}
+
+/// By how much a motion is slowed down to be within its limits, and what it takes of them, over the duration asked for if that is longer.
+fn looked_at_in(
+    motion: &dyn TimedAlongPath,
+    limits: &Limits,
+    torques: Option<&TorqueLimits>,
+    asked: Option<f64>,
+) -> (f64, Held, Hardest) {
+    let (factor, part, hardest) = slowed(motion, limits, torques);
+    match slower(motion, asked) {
+        longer if longer > factor => {
+            let (part, hardest) = held(motion, longer, limits, torques);
+            (factor, part, hardest)
+        }
+        _ => (factor, part, hardest),
+    }
 }
 
 /// By how much a motion is slowed down to take as long as was asked for.
