@@ -197,7 +197,7 @@ fn there_is_inverse_kinematics_where_it_has_a_closed_form() {
     assert_eq!(answer["ik"]["branches"].as_array().map(Vec::len), Some(3), "{answer}");
     assert!(answer["ik"]["poses_in_test"].as_u64() > Some(10), "{answer}");
     let lines = texts(&there, &answer)[..2].iter().map(|t| t.lines().count()).sum::<usize>();
-    assert!(lines < 2600, "{lines} lines of C");
+    assert!(lines < 2700, "{lines} lines of C");
 
     let there = folder("inverse-alone");
     let answer = generated("scara", "python", &there, &["--functions", "ik", "--fixed"]);
