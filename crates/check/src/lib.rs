@@ -33,6 +33,7 @@ mod lexis;
 mod lines;
 mod listing;
 mod loads;
+mod masses_read;
 pub mod marking;
 mod matrix;
 mod named_sums;

@@ -16,6 +16,9 @@ use denavit_program::{Extended, Program};
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::TAU;
 
+/// Room for solutions by elimination: that many an arm has at most where none are double.
+pub(crate) const MAX: usize = 16;
+
 /// What is known of a generated inverse function.
 #[derive(Clone, Debug)]
 pub struct Inverse {

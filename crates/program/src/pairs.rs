@@ -1,8 +1,8 @@
 //! Angles as pairs: the cosine and sine of an angle in the place of the angle, as an input or as a result.
 
 use crate::graph::{Graph, Op, Value};
-use crate::program::Program;
-use crate::rebuild::{Rebuild, apply, names_of, signed, unique};
+use crate::program::{Program, names_of};
+use crate::rebuild::{Rebuild, apply, signed, unique};
 use denavit_symbolic::{Rational, Symbol};
 use rustc_hash::FxHashMap;
 use std::fmt;

@@ -2,7 +2,6 @@
 
 use crate::domain::Domain;
 use crate::graph::{Count, Graph, Op, Stage, Value};
-use crate::rebuild::names_of;
 use denavit_symbolic::{Expr, Node, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -401,4 +400,13 @@ fn only_in_angles(ops: &[(Op, Stage)], outputs: &[(String, Value)]) -> Vec<bool>
 
 fn signed(e: Expr, negative: bool) -> Expr {
     if negative { -e } else { e }
+}
+
+/// The names of a program: inputs, shared values, results.
+pub(crate) fn names_of(program: &Program) -> FxHashSet<String> {
+    let inputs = program.variables().iter().chain(program.parameters());
+    let mut names: FxHashSet<String> = inputs.map(|s| s.name().to_string()).collect();
+    names.extend((0..program.ops().len() as u32).filter_map(|n| program.name(n).map(str::to_string)));
+    names.extend(program.outputs().iter().map(|o| o.0.clone()));
+    names
 }

@@ -56,15 +56,6 @@ impl Rebuild {
     }
 }
 
-/// The names of a program: inputs, shared values, results.
-pub(crate) fn names_of(program: &Program) -> FxHashSet<String> {
-    let inputs = program.variables().iter().chain(program.parameters());
-    let mut names: FxHashSet<String> = inputs.map(|s| s.name().to_string()).collect();
-    names.extend((0..program.ops().len() as u32).filter_map(|n| program.name(n).map(str::to_string)));
-    names.extend(program.outputs().iter().map(|o| o.0.clone()));
-    names
-}
-
 /// The name itself, or with `_2`, `_3`, … behind it, whatever is first not used.
 pub(crate) fn unique(name: &str, used: &mut FxHashSet<String>) -> String {
     if used.insert(name.to_string()) {

@@ -23,7 +23,7 @@ pub struct Plan<'a> {
     pub parts: &'a [Part<'a>],
     /// Parts of names of functions that nothing calls: they stand in the table for somebody else's sake.
     pub dropped: &'a [&'a str],
-    /// Constant texts that one part alone reads, and which.
+    /// Constant texts, and the part that alone reads them.
     pub texts: &'a [Vec<u8>],
     pub reader: usize,
 }
@@ -122,7 +122,6 @@ struct Border<'a> {
     /// The functions that a later part calls, with numbers for their names.
     needed: BTreeMap<u32, usize>,
     data: Divided<'a>,
-    /// The part that reads its texts.
     reader: usize,
 }
 
@@ -417,9 +416,7 @@ fn later(whole: &Whole, wanted: &Part, border: &Border, part: usize) -> Result<V
             .parse_function_body(&mut code, whole.bodies[f as usize - whole.imported].clone())?;
     }
     module.section(&code);
-    if part == border.reader {
-        module.section(&constants(&border.data.texts));
-    }
+    (part == border.reader).then(|| module.section(&constants(&border.data.texts)));
     Ok(module.finish())
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Controller, SAMPLES};
 use crate::Solver;
-use crate::general::MAX;
+use crate::inverse::MAX;
 use crate::tables::wrapped;
 use denavit::inverse::Goal;
 use denavit_emit::{Attachment, File};

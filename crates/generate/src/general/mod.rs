@@ -10,7 +10,7 @@ mod python;
 mod rust;
 
 use super::PackageOptions;
-use super::inverse::Inverse;
+use super::inverse::{Inverse, MAX};
 use super::samples::{self, Sample};
 use super::words::text;
 use denavit::description::{Description, JointKind};
@@ -22,9 +22,6 @@ use denavit::space::JointSpace;
 use denavit_elimination::{Plan, Tables};
 use denavit_emit::{Attachment, Language};
 use denavit_symbolic::{Expr, Symbol};
-
-/// Room for solutions: that many an arm has at most where none are double.
-pub(super) const MAX: usize = 16;
 
 /// What C takes of the stack; a test holds it to that.
 const STACK: &str = "Stack as gcc 12 compiles it for x86-64 and Cortex-M7, that of libm aside: at most 11.5 kB in solve, 13.5 kB in ik \

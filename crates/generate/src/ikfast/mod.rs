@@ -6,7 +6,7 @@
 mod kind;
 mod test;
 
-use super::general::MAX;
+use super::inverse::MAX;
 use super::tables::wrapped;
 use super::{PackageOptions, Solver, Unable, Wanted};
 use denavit::description::{Description, JointKind};

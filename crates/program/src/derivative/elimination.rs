@@ -7,8 +7,8 @@
 
 use super::{Nodes, accumulate, named_jacobian};
 use crate::graph::{Stage, Value};
-use crate::program::Program;
-use crate::rebuild::{Rebuild, names_of, signed};
+use crate::program::{Program, names_of};
+use crate::rebuild::{Rebuild, signed};
 use denavit_symbolic::{Rational, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 

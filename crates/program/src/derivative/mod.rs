@@ -8,8 +8,8 @@
 mod elimination;
 
 use crate::graph::{Graph, Op, Stage, Value};
-use crate::program::Program;
-use crate::rebuild::{Rebuild, names_of, signed};
+use crate::program::{Program, names_of};
+use crate::rebuild::{Rebuild, signed};
 use denavit_symbolic::{Rational, Symbol};
 
 /// What is known about each node of the program: a rate, a weight. No entry stands for 0.

@@ -2,8 +2,7 @@
 
 use super::Description;
 use super::mjcf::rotation_of;
-use crate::geometry::{Rotation, Transform, Vector, quaternion};
-use crate::inverse::newton::nearest_rigid;
+use crate::geometry::{Rotation, Transform, Vector, nearest_rigid, quaternion};
 use denavit_symbolic::{Expr, Rational};
 
 /// What is off by more is no rotation that was rounded.

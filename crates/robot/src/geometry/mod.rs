@@ -18,4 +18,5 @@ pub(crate) use orientation::quaternion;
 pub use orientation::{EulerSet, Orientation, OrientationError, OrientationSet};
 pub use rotation::{NotRigid, RIGID_TOLERANCE, Rotation};
 pub use transform::Transform;
+pub(crate) use transform::nearest_rigid;
 pub use vector::{Axis, Vector};

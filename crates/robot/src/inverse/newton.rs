@@ -1,7 +1,8 @@
 //! Newton's method on the pose.
 
 use super::derivation::Goal;
-use crate::geometry::{Axis, Rotation, Transform, Vector};
+pub(crate) use crate::geometry::nearest_rigid;
+use crate::geometry::{Axis, Transform, Vector};
 use crate::mechanism::Robot;
 use crate::random::Random;
 use crate::space::JointSpace;
@@ -354,30 +355,4 @@ fn damped(columns: &[[f64; 6]], e: &[f64; 6], damping: f64) -> Vec<f64> {
         }
     }
     (0..n).map(|k| if m[k][k].abs() < f64::MIN_POSITIVE { 0.0 } else { m[k][n] / m[k][k] }).collect()
-}
-
-/// The pose with the rotation nearest to its own, and by how much the columns of its own fail to be orthonormal.
-pub fn nearest_rigid(pose: &Transform<f64>) -> (Transform<f64>, f64) {
-    let mut rows = pose.rotation.rows();
-    let mut defect = 0.0_f64;
-    for step in 0..3 {
-        // R (3·1 − RᵀR)/2, which converges to the orthogonal factor of R.
-        let column = |j: usize| Vector(std::array::from_fn(|i: usize| rows[i][j]));
-        let product: [[f64; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| f64::from(u8::from(i == j)) - column(i).dot(column(j)))
-        });
-        let largest = product.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-        if step == 0 {
-            defect = largest;
-        }
-        if largest <= 1e-15 || largest > 0.1 {
-            break;
-        }
-        rows = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                rows[i][j] + 0.5 * (0..3).map(|k| rows[i][k] * product[k][j]).sum::<f64>()
-            })
-        });
-    }
-    (Transform::from_rotation_translation(Rotation::from_rows(rows), pose.translation), defect)
 }

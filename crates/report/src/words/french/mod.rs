@@ -15,6 +15,7 @@ mod exercise;
 mod geometry;
 mod inverse;
 mod motion;
+mod read_with;
 mod report;
 mod terms;
 mod velocity;
