@@ -14,7 +14,7 @@ pub(super) fn attachment(own: &Controller) -> Attachment {
         Goal::Position => include_str!("matlab/goal_position.m"),
         Goal::PositionAndAxis => include_str!("matlab/goal_axis.m"),
     };
-    let answer = include_str!("matlab/answer.m").replace("@goal@", goal);
+    let answer = include_str!("matlab/answer.m").replace("@goal@", goal) + include_str!("matlab/nearest.m");
     let file = |path: &str, text: &str| File { path: path.into(), text: own.matlab(text) };
     Attachment {
         name: "controller".into(),
@@ -67,7 +67,8 @@ impl Controller<'_> {
         let given_about =
             format!("%\n%   GIVEN has the value{} of {}.\n", if g == 1 { "" } else { "s" }, names.join(", "));
         let given_check = format!("\ngiven = @name@_numbers(given, 'given', {{[1, {g}]}});");
-        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
+        let solve_goal = if self.passes_rounded() { "rounded" } else { "goal" };
+        let rounded = "\nrounded = goal;\nif off <= 1e-5\n    rounded = pose;\nend";
         let test_given = format!(", q({given})");
         let wrong = if self.goal == Goal::Position { "" } else { include_str!("matlab/test_wrong.m") };
         let or_twist =
@@ -95,6 +96,7 @@ impl Controller<'_> {
             .replace("@or_twist@", or_twist)
             .replace("@flatten@", flatten)
             .replace("@solve_goal@", solve_goal)
+            .replace("@rounded@", &either(self.passes_rounded(), rounded))
             .replace("@max@", &max.to_string())
             .replace("@branch@", branch)
             .replace("@branch_about@", branch_about)

@@ -77,7 +77,8 @@ impl Controller<'_> {
         } else {
             include_str!("python/search_plain.py.txt")
         };
-        let solve_goal = if self.passes_rounded() { "pose" } else { "goal" };
+        let solve_goal = if self.passes_rounded() { "(pose if off <= 1e-5 else goal)" } else { "goal" };
+        let parameters_check = "\n    if not np.isfinite([*vars(parameters).values()]).all():\n        status = IkStatus.NOT_FINITE";
         let given_check = "\n    if not np.isfinite(given).all():\n        status = IkStatus.NOT_FINITE";
         let wrong = if self.goal == Goal::Position { "" } else { include_str!("python/test_wrong.py.txt") };
         let (configurations, counts) = self.tested();
@@ -131,6 +132,7 @@ impl Controller<'_> {
             )
             .replace("@given_about@", &either(has_given, &given_about))
             .replace("@given_shape@", &either(has_given, &given_shape))
+            .replace("@parameters_check@", &either(p, parameters_check))
             .replace("@given_check@", &either(has_given, given_check))
             .replace("@read@", &read)
             .replace("@pose_read@", &read)

@@ -39,6 +39,11 @@ a.copies = @copies@;
 a.neighbours = 6;
 % Members of families have singular values below this beside the largest.
 a.flat = 2e-6;
+% How far along the motion of a family its members are searched from.
+a.aside = [0, 2, -2];
+% Beyond this a value of a joint, divided by its unit, is none: turns are rounded there until the hand is
+% elsewhere.
+a.far = 1e6;
 % The most copies of turns that are listed.
 a.most_copies = 1000000;
 % What a rotation may be off, by its largest entry, from the nearest one, which is meant.
@@ -258,17 +263,24 @@ motion = [motions; zeros(1, a.n)];
 motion = motion(1, :);
 end
 
+function q = aside(a, goal, own, by)
+% A member of a family: the one that is known, or another, some way along its motion or against it.
+q = own.q;
+if by ~= 0
+    q = slid(a, goal, q, true, q + by*a.unit.*own.motion);
+end
+end
+
 function are = are_members(a, goal, own, q)
 % Whether configurations are members of the family of a solution.
-[~, distance] = slid(a, goal, own.q .* ones(size(q)), true, q);
-are = distance <= 1e-4;
-for by = [2, -2]
+are = false(size(q, 1), 1);
+for by = a.aside
     % Half a turn away the shorter way of each joint need not be that of the family: start from
     % elsewhere, too.
     rows = find(~are);
     if ~isempty(rows)
-        start = slid(a, goal, own.q, true, own.q + by*a.unit.*own.motion);
-        [~, distance] = slid(a, goal, start .* ones(numel(rows), a.n), true, q(rows, :));
+        start = aside(a, goal, own, by) .* ones(numel(rows), a.n);
+        [~, distance] = slid(a, goal, start, true, q(rows, :));
         are(rows) = distance <= 1e-4;
     end
 end
@@ -412,16 +424,22 @@ if any([known.dimension] > 0)
 end
 end
 
+function are = are_numbers(parameters)
+% Whether no parameter is infinite or none.
+is_wrong = @(x) isnumeric(x) && ~all(isfinite(x(:)));
+are = ~isstruct(parameters) || ~any(cellfun(is_wrong, struct2cell(parameters)));
+end
+
 function result = all_solutions(a, pose, given)
 [status, goal, off] = wanted(a, pose);
 result = struct('status', status, 'off', off, 'q', zeros(0, a.n), 'solutions', ...
     solutions_of(zeros(0, a.n), [], [], []));
-if ~all(isfinite(given))
+if ~all(isfinite(given)) || ~are_numbers(a.parameters)
     result.status = 'not finite';
 end
 if ~strcmp(result.status, 'solved')
     return;
-end
+end@rounded@
 [known, is_all] = listed(a, @solve_goal@, given);
 if ~is_all
     [known, result.status] = singular(a, goal, given, known);
@@ -432,144 +450,3 @@ result.solutions = known;
 result.q = [zeros(0, a.n); vertcat(known.q)];
 end
 
-function best = offer(a, limits, previous, q, best)
-% Keeps the nearest of configurations, moved by whole turns: best(1) within the limits, best(2) wherever.
-lower = limits.lower - 1e-9*a.unit;
-upper = limits.upper + 1e-9*a.unit;
-for k = 1:size(q, 1)
-    for copy = a.copies.'
-        own = q(k, :) + copy.';
-        own = own + turns(previous - own, a.window);
-        is_out = a.window > 0 & own > upper;
-        is_under = a.window > 0 & ~is_out & own < lower;
-        own(is_out) = own(is_out) - a.window(is_out) ...
-            .*ceil((own(is_out) - upper(is_out))./a.window(is_out));
-        own(is_under) = own(is_under) + a.window(is_under) ...
-            .*ceil((lower(is_under) - own(is_under))./a.window(is_under));
-        is_within = all(own >= lower & own <= upper);
-        if ~is_within
-            own = previous + a.unit.*way(a, previous, own);
-        end
-        distance = max(abs(own - previous)./a.unit);
-        for kind = 2 - is_within:2
-            if distance < best(kind).distance
-                best(kind) = struct('q', own, 'distance', distance);
-            end
-        end
-    end
-end
-end
-
-function q = approached(a, goal, limits, q)
-% Descends from a configuration to where the hand comes close to the goal, within the limits.
-damping = 1e-2;
-q = min(max(q, limits.lower), limits.upper);
-[missed, distance, jacobian] = missing(a, goal, q, false);
-for step = 1:200
-    if ~(distance > 1e-12 && damping < 1e8)
-        break;
-    end
-    motion = pull(jacobian, missed, damping);
-    trial = q + a.unit.*min(max(motion, -0.5), 0.5);
-    trial = min(max(trial, limits.lower), limits.upper);
-    [trial_missed, trial_distance, trial_jacobian] = missing(a, goal, trial, false);
-    if trial_distance < distance
-        by = apart(a, trial, q);
-        q = trial;
-        missed = trial_missed;
-        distance = trial_distance;
-        jacobian = trial_jacobian;
-        damping = max(0.2*damping, 1e-12);
-        if by < 1e-12
-            break;
-        end
-    else
-        damping = 8*damping;
-    end
-end
-end
-@spread@
-function choice = nearest(a, pose, previous, limits)
-[status, goal, off] = wanted(a, pose);
-choice = struct('status', status, 'is_found', false, 'q', previous, 'distance', 0, 'off', off, ...
-    'missed_shift', 0, 'missed_turn', 0);
-if ~all(isfinite(previous)) || ~all(limits.lower <= limits.upper)
-    choice.status = 'not finite';
-end
-if ~strcmp(choice.status, 'solved')
-    return;
-end
-best = repmat(struct('q', previous, 'distance', Inf), 2, 1);
-@search@
-if best(1).distance < Inf
-    choice.is_found = true;
-    choice.q = best(1).q;
-    choice.distance = best(1).distance;
-elseif best(2).distance < Inf
-    choice.q = best(2).q;
-    choice.distance = best(2).distance;
-    choice.status = 'outside limits';
-else
-    choice.q = approached(a, goal, limits, previous);
-    choice.distance = max(abs(choice.q - previous)./a.unit);
-end
-missed = missing(a, goal, choice.q, false);
-choice.missed_shift = a.size*norm(missed(1:3));
-choice.missed_turn = norm(missed(4:6));
-end
-
-function list = copies_within(a, limits, value)
-% For each joint the copies of a value within the limits, as counts of whole turns.
-list = cell(1, a.n);
-for j = 1:a.n
-    lower = limits.lower(j) - 1e-9*a.unit(j);
-    upper = limits.upper(j) + 1e-9*a.unit(j);
-    period = a.window(j);
-    if ~(period > 0)
-        list{j} = zeros(1, value(j) >= lower && value(j) <= upper);
-    elseif lower == -Inf && upper == Inf
-        % Without a limit on a side: a turn in all.
-        list{j} = 0;
-    else
-        if lower == -Inf
-            lower = upper - period;
-        elseif upper == Inf
-            upper = lower + period;
-        end
-        first = ceil((lower - value(j))/period);
-        last = floor((upper - value(j))/period);
-        list{j} = first:min(last, first + a.most_copies - 1);
-    end
-end
-end
-
-function [status, q] = all_within(a, pose, given, limits)
-q = zeros(0, a.n);
-status = 'not finite';
-if ~all(limits.lower <= limits.upper)
-    return;
-end
-found = all_solutions(a, pose, given);
-status = found.status;
-for s = 1:size(found.q, 1)
-    for copy = a.copies.'
-        base = found.q(s, :) + copy.';
-        counts = copies_within(a, limits, base);
-        sizes = cellfun(@numel, counts);
-        % The first joint turns fastest.
-        many = max(min(prod(sizes), a.most_copies - size(q, 1)), min(1, prod(sizes)));
-        rows = zeros(many, a.n);
-        index = (0:many - 1).';
-        for j = 1:a.n
-            if many > 0
-                rows(:, j) = counts{j}(mod(index, sizes(j)) + 1);
-                index = floor(index/sizes(j));
-            end
-        end
-        q = [q; base + rows.*a.window]; %#ok<AGROW>
-    end
-end
-if isempty(q) && ~isempty(found.q)
-    status = 'outside limits';
-end
-end

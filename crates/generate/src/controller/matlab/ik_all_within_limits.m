@@ -5,7 +5,9 @@ function [status, q] = @name@_ik_all_within_limits(pose@given_local@, limits@par
 %   [STATUS, Q] = @NAME@_IK_ALL_WITHIN_LIMITS(POSE@GIVEN@, LIMITS@PARAMETERS@) within those of a struct: lower and
 %   upper, 1 x @n@, infinite ones for none; [] for those of the robot. An angle without a limit takes one
 %   turn. Q has a configuration a row (rad, m), at most about a million. STATUS is that of @NAME@_IK, or
-%   'outside limits'. Of families there is one member.
+%   'outside limits'. Of families there is one member, if one within the limits is found. Limits
+%   beyond 1e6 rad, or 1e6 of the arm's sizes, are none; the status is 'not finite' if
+%   they exclude all values.
 @given_about@%@parameters_about@
 %   See also @NAME@_IK, @NAME@_IK_NEAREST, @NAME@_LIMITS.
 

@@ -3,9 +3,10 @@ function choice = @name@_ik_nearest(pose, previous, limits@parameters_given@)
 %
 %   CHOICE = @NAME@_IK_NEAREST(POSE, PREVIOUS) within the limits of the robot, @NAME@_LIMITS;
 %   CHOICE = @NAME@_IK_NEAREST(POSE, PREVIOUS, LIMITS@PARAMETERS@) within those of a struct: lower and upper,
-%   1 x @n@, infinite ones for none; [] for those of the robot. POSE is 4 x 4, or the first three rows;
-%   PREVIOUS is 1 x @n@ (rad, m). The nearest by the largest difference of a joint, joints moved by whole
-%   turns where that is nearer.
+%   1 x @n@, infinite ones for none, as are those beyond 1e6 rad, or 1e6 of the arm's sizes; [] for those of
+%   the robot. The status is 'not finite' if they exclude all values, or a previous value is beyond
+%   that. POSE is 4 x 4, or the first three rows; PREVIOUS is 1 x @n@ (rad, m). The nearest by the largest
+%   difference of a joint, joints moved by whole turns where that is nearer.
 %
 @nearest@
 %
@@ -16,7 +17,8 @@ function choice = @name@_ik_nearest(pose, previous, limits@parameters_given@)
 %                        them. Where no solution is known: where the hand comes close, within the limits,
 %                        found by descent from the previous configuration
 %   CHOICE.distance      the largest difference of a joint from the previous configuration (rad; m divided
-%                        by the arm's size)
+%                        by the arm's size). This and what is missed are Inf, and q is PREVIOUS, with
+%                        'not a rotation' and 'not finite'
 %   CHOICE.off           how far the rotation was from the nearest one, by its largest entry
 %   CHOICE.missed_shift  by how far q misses the position (m); 0 but for rounding where it is solved. Out
 %                        of reach, this is at most how far

@@ -3,6 +3,9 @@
 is_reached = missed <= 1e-10;
 if is_reached
     best = offer(a, limits, previous, slid(a, goal, start, false, previous), best);
+    if best(1).distance == Inf
+        best = settle(a, goal, start, false, limits, previous, best);
+    end
 end
 starts = zeros(0, a.n);
 for sample = 0:@samples@ - 1
@@ -16,11 +19,32 @@ for sample = 0:@samples@ - 1
         is_reached = true;
     end
 end
-if ~isempty(starts)
-    % From the nearest few.
-    [~, order] = sort(apart(a, previous, starts));
-    starts = starts(order(1:min(6, end)), :);
-    best = offer(a, limits, previous, slid(a, goal, starts, false, previous), best);
+% From the nearest few.
+[~, order] = sort(apart(a, previous, starts));
+for start = starts(order(1:min(6, end)), :).'
+    least = best(1).distance;
+    best = offer(a, limits, previous, slid(a, goal, start.', false, previous), best);
+    % Where that is not within the limits, or no nearer: from the start once more, within them.
+    if ~(best(1).distance < least)
+        best = settle(a, goal, start.', false, limits, previous, best);
+    end
+end
+% By descent from configurations within the limits.
+[lower, upper] = around(a, limits, previous);
+for k = 0:23
+    if best(1).distance < Inf
+        break;
+    end
+    part = k*(0.6180339887498949 + 0.1*(0:a.n - 1));
+    start = previous;
+    if k > 0
+        start = lower + (upper - lower).*(part - floor(part));
+    end
+    [start, missed] = corrected(a, goal, approached(a, goal, limits, start), false, 20);
+    if missed <= 1e-10
+        best = settle(a, goal, start, false, limits, previous, best);
+        is_reached = true;
+    end
 end
 if ~is_reached
     choice.status = 'undecided';
