@@ -361,7 +361,7 @@ mod tests {
         let says = |files: &[Size]| limits(files).err().map(|e| e.to_string()).unwrap_or_default();
         assert_eq!(
             says(&files(MAX_ENGINE + 1, 0)),
-            "denavit.wasm is 800001 bytes compressed by brotli; at most 800000"
+            "denavit.wasm is 750001 bytes compressed by brotli; at most 750000"
         );
         assert_eq!(
             says(&files(1, MAX_SITE)),
