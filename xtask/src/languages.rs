@@ -95,11 +95,11 @@ pub fn run() -> Result<()> {
 /// What fails, all of it.
 pub fn every() -> Result<()> {
     install()?;
-    let tools = Tools { python: PathBuf::new(), program: program()?, folder: path("target/generated-every") };
-    if tools.folder.exists() {
-        fs::remove_dir_all(&tools.folder)?;
+    let (program, root) = (program()?, path("target/generated-every"));
+    if root.exists() {
+        fs::remove_dir_all(&root)?;
     }
-    let listed = command(&tools.program).args(["robots", "--json"]).output()?;
+    let listed = command(&program).args(["robots", "--json"]).output()?;
     let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).context("a list of robots")?;
     let names = listed["robots"].as_array().context("robots")?.iter().filter_map(|r| r["name"].as_str());
     let mut robots: Vec<String> = names.map(str::to_string).collect();
@@ -115,8 +115,8 @@ pub fn every() -> Result<()> {
     for robot in &robots {
         let stem = stem(robot)?.to_string();
         for language in ["c", "rust"] {
-            let target = tools.folder.join(language).join(&stem);
-            let mut generate = command(&tools.program);
+            let target = root.join(language).join(&stem);
+            let mut generate = command(&program);
             generate.args(["generate", robot, "--language", language, "--functions", KINEMATIC, "--output"]);
             let output = generate.arg(&target).stdin(Stdio::null()).output()?;
             if !output.status.success() {
@@ -131,11 +131,11 @@ pub fn every() -> Result<()> {
             }
         }
     }
-    let folder = tools.folder.join("rust");
+    let folder = root.join("rust");
     fs::write(folder.join("Cargo.toml"), format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n"))?;
     let mut cargo = crate::cargo();
     cargo.args(["test", "--workspace", "--no-fail-fast", "--quiet", "--offline"]).current_dir(&folder);
-    cargo.env("CARGO_TARGET_DIR", tools.folder.join("rust-target"));
+    cargo.env("CARGO_TARGET_DIR", root.join("rust-target"));
     if let Err(why) = quietly(&mut cargo) {
         failed.push(format!("in Rust: {why:#}"));
     }
@@ -301,18 +301,28 @@ pub fn quietly(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Debian packages for the programs, and headers, that are missing.
+/// What the tests of generated code need.
+///
+/// # Errors
+/// If something cannot be installed.
 pub fn install() -> Result<()> {
-    const PROGRAMS: &[(&str, &str)] = &[
-        ("gcc", "gcc"),
-        ("g++", "g++"),
-        ("make", "make"),
-        ("clang", "clang"),
-        ("octave", "octave"),
-        ("node", "nodejs"),
-        ("python3", "python3"),
-        ("/usr/include/eigen3", "libeigen3-dev"),
-    ];
+    install_missing(&[
+        ("gcc", &["gcc"]),
+        ("g++", &["g++"]),
+        ("make", &["make"]),
+        ("clang", &["clang"]),
+        ("octave", &["octave"]),
+        ("node", &["nodejs"]),
+        ("python3", &["python3"]),
+        ("/usr/include/eigen3", &["libeigen3-dev"]),
+    ])
+}
+
+/// Debian packages for the programs, and headers by their folders, that are missing.
+///
+/// # Errors
+/// If they cannot be installed.
+pub fn install_missing(programs: &[(&str, &[&str])]) -> Result<()> {
     let is_missing = |program: &str| {
         if program.starts_with('/') {
             return !Path::new(program).exists();
@@ -321,7 +331,8 @@ pub fn install() -> Result<()> {
             Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
         !started.is_ok_and(|s| s.success())
     };
-    let missing: BTreeSet<&str> = PROGRAMS.iter().filter(|p| is_missing(p.0)).map(|p| p.1).collect();
+    let missing: BTreeSet<&str> =
+        programs.iter().filter(|p| is_missing(p.0)).flat_map(|p| p.1).copied().collect();
     if missing.is_empty() {
         return Ok(());
     }

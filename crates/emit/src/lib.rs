@@ -106,8 +106,8 @@ pub struct Library<'a> {
 /// A function that is no program, written out in the language of the library (CUDA leaves it out).
 ///
 /// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in all but IkFast,
-/// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters (in JavaScript
-/// also `@solve_result@` for what a solver calls its results); in files for Rust,
+/// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters (in Rust and
+/// JavaScript also `@solve_result@` for what a solver calls its results); in files for Rust,
 /// and in Python, JavaScript and MATLAB, `@Parameters(1.5, 2.0)@` for these values of all parameters.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Attachment {
@@ -148,6 +148,12 @@ impl Attachment {
             format!("{before}{}{after}", value(&values))
         });
         made.unwrap_or(text)
+    }
+
+    /// A text with what solvers call their results.
+    pub(crate) fn with_results(text: String, plans: &[solver::Plan]) -> String {
+        let marks = plans.iter().map(|p| (format!("@{}_result@", p.name), &p.result));
+        marks.fold(text, |text, (mark, result)| text.replace(&mark, result))
     }
 
     /// A text with `, parameters` or nothing where functions are called, each by whether it reads none.

@@ -1,7 +1,7 @@
 //! Generated C as firmware: for a Cortex-M7 it is compiled, weighed and run in qemu, which counts instructions; cppcheck and clang-tidy
 //! read it. In Rust it is compiled for the same processor.
 
-use crate::languages::{apt, quietly};
+use crate::languages::{install_missing, quietly};
 use crate::{command, program, scratch};
 use anyhow::{Context, Result, bail, ensure};
 use std::fs;
@@ -34,7 +34,12 @@ const CHECKS: &str = "-*,bugprone-*,cert-*,clang-analyzer-*,misc-*,portability-*
 /// # Errors
 /// If something is missing, does not build, is remarked on, or takes more than it may.
 pub fn run() -> Result<()> {
-    install()?;
+    install_missing(&[
+        ("arm-none-eabi-gcc", &["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"]),
+        ("qemu-system-arm", &["qemu-system-arm"]),
+        ("cppcheck", &["cppcheck"]),
+        ("clang-tidy", &["clang-tidy"]),
+    ])?;
     let program = program()?;
     let root = scratch()?.join("firmware");
     let mut table = String::from(
@@ -80,29 +85,6 @@ pub fn run() -> Result<()> {
     println!("{table}");
     ensure!(beyond.is_empty(), "{}", beyond.join("\n"));
     Ok(())
-}
-
-fn install() -> Result<()> {
-    const PROGRAMS: &[(&str, &[&str])] = &[
-        ("arm-none-eabi-gcc", &["gcc-arm-none-eabi", "libnewlib-arm-none-eabi"]),
-        ("qemu-system-arm", &["qemu-system-arm"]),
-        ("cppcheck", &["cppcheck"]),
-        ("clang-tidy", &["clang-tidy"]),
-    ];
-    let is_missing = |name: &str| {
-        let started =
-            Command::new(name).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-        !started.is_ok_and(|s| s.success())
-    };
-    let missing: Vec<&str> = PROGRAMS.iter().filter(|p| is_missing(p.0)).flat_map(|p| p.1).copied().collect();
-    if missing.is_empty() {
-        return Ok(());
-    }
-    println!("installing {}", missing.join(", "));
-    apt(&["update", "-qq"]).context("installing needs apt and the right to use it")?;
-    let mut arguments = vec!["install", "-y", "-qq", "--no-install-recommends"];
-    arguments.extend(&missing);
-    apt(&arguments)
 }
 
 /// What readers of C remark.

@@ -47,7 +47,8 @@ pub(super) struct Described {
 /// Arms have no more joints here than an index has digits.
 const JOINTS: usize = 9;
 
-pub(super) const CENTRES: [&str; 18] = [
+/// What centres of mass are called.
+pub(super) const CENTRES: [&str; 19] = [
     "centre of mass",
     "center of mass",
     "centres of mass",
@@ -58,6 +59,7 @@ pub(super) const CENTRES: [&str; 18] = [
     "mass center",
     "mass centre",
     "schwerpunkt",
+    "massenmittelpunkt",
     "centre de masse",
     "centres de masse",
     "centros de mas",
@@ -108,7 +110,8 @@ const OTHERWISE: [&str; 16] = [
     "inertia forc",
     "trägheitskr",
 ];
-const INERTIA: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
+/// What inertias are called.
+pub(super) const INERTIA: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
 
 /// Whether words speak of inertias of bodies, even to leave them out.
 fn speaks_of_inertia(lower: &str) -> bool {

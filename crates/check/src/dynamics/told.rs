@@ -1,6 +1,6 @@
 //! What sentences say of a document's dynamics: where gravity pulls, about which points inertias are, and what the links are.
 
-use super::described::{Described, described};
+use super::described::{CENTRES, Described, INERTIA, described};
 use crate::facts::Spoken;
 use crate::leeway::HELD;
 use crate::tools::edge;
@@ -134,26 +134,6 @@ fn is_level(lower: &str) -> bool {
 
 /// The point about which a sentence says that inertias are.
 fn inertia(lower: &str) -> Option<Point> {
-    const WORDS: [&str; 6] = ["inerti", "inerzi", "inerci", "inérci", "trägheit", "traegheit"];
-    const CENTRES: [&str; 17] = [
-        "centre of mass",
-        "center of mass",
-        "centres of mass",
-        "centers of mass",
-        "centre of gravity",
-        "center of gravity",
-        "centroid",
-        "schwerpunkt",
-        "massenmittelpunkt",
-        "centre de masse",
-        "centres de masse",
-        "centros de mas",
-        "centri di massa",
-        "centre de gravité",
-        "centro de mas",
-        "centro di massa",
-        "baricent",
-    ];
     const JOINTS: [&str; 13] = [
         "joint",
         "axis of rotation",
@@ -185,7 +165,7 @@ fn inertia(lower: &str) -> Option<Point> {
         "em torno",
     ];
     let mut found: Option<Point> = None;
-    for sentence in sentences(lower, &WORDS) {
+    for sentence in sentences(lower, &INERTIA) {
         for (names, point) in [(&CENTRES[..], Point::Centre), (&JOINTS[..], Point::Joint)] {
             for (at, _) in names.iter().flat_map(|name| sentence.match_indices(name)) {
                 let first = edge(sentence, at.saturating_sub(30));

@@ -9,7 +9,6 @@ use crate::terminal::{FAINT, HEADING, NAME, note, styled};
 use denavit::description::{Description, MAX_XML_BYTES, read_srdf, render};
 use denavit::dynamics::{Loads, NoProgram};
 use denavit::inverse;
-use denavit::robot::Robot;
 use denavit_emit::{Language, Precision};
 use denavit_generate::{Generated, Inverse, Links, PackageOptions, Unable, Wanted, generate_ros2};
 use denavit_wire::code::Written;
@@ -66,14 +65,11 @@ pub fn run(arguments: &GenerateArguments) -> Result<(), Failure> {
         }
     }
     let mut out = anstream::stdout();
+    let what = if is_package(arguments) { ROS2 } else { language.name() };
     if arguments.json {
-        let mut written = Written::of(&generated, language, &arguments.output);
-        if is_package(arguments) {
-            written.language = ROS2;
-        }
+        let written = Written { language: what, ..Written::of(&generated, language, &arguments.output) };
         writeln!(out, "{}", denavit_wire::text(&written))?;
     } else {
-        let what = if is_package(arguments) { ROS2 } else { language.name() };
         let test = generated.test_command(language);
         write!(out, "{}", report(&generated, what, &test, &arguments.output))?;
     }
@@ -150,10 +146,9 @@ fn package(
              give the URDF of the robot; `denavit convert {file} --to urdf` writes one"
         )));
     };
-    let robot = Robot::numeric(description).map_err(|missing| {
+    let mut links = Links::new(&both.0, &both.1, description).map_err(|missing| {
         Failure::Input(format!("error: {file}: {missing}\n  = hint: give values with --set"))
     })?;
-    let mut links = Links::new(&both.0, &both.1, &robot);
     links.group.clone_from(&arguments.group);
     generate_ros2(description, &links, options).map_err(|why| refused(&why, arguments))
 }

@@ -22,8 +22,7 @@ impl Module<'_> {
             self.plans.iter().map(|p| (p.name.as_str(), self.parameters_of_solver(p).is_empty()));
         let texts = self.library.attachments.iter().map(|a| Attachment::named(text(a), &self.name));
         let text = Attachment::called(texts.collect(), of_functions.chain(of_solvers));
-        let results = self.plans.iter().map(|p| (format!("@{}_result@", p.name), &p.result));
-        let text = results.fold(text, |text, (mark, result)| text.replace(&mark, result));
+        let text = Attachment::with_results(text, &self.plans);
         Attachment::with_values(text, |values| {
             let fields = self.library.parameters.iter().zip(values);
             let fields: Vec<String> =

@@ -13,6 +13,7 @@ impl Source<'_> {
         let files = self.library.attachments.iter().flat_map(|a| a.named_files(&self.name));
         files.map(move |file| {
             let text = Attachment::called(file.text, of_functions().chain(of_solvers()));
+            let text = Attachment::with_results(text, &self.plans);
             let text = Attachment::with_values(text, |values| {
                 let fields = self.library.parameters.iter().zip(values);
                 let fields: Vec<String> =

@@ -132,6 +132,7 @@ impl Controller<'_> {
             .replace("@count@", &self.known.len().to_string())
             .replace("@flatten@", &flatten)
             .replace("@solve_goal@", solve_goal)
+            .replace("@solve_result@", if is_closed { "@solve_result@" } else { "q" })
             .replace("@found_branch@", if is_closed { "Some(s.branch)" } else { "None" })
             .replace("@branch@", branch)
             .replace("@max@", &max)

@@ -1,6 +1,6 @@
 //! The links of a chain by name: on which frame of its table each stands.
 
-use denavit::description::{Chain, Mechanism};
+use denavit::description::{Chain, Description, Mechanism, MissingValue};
 use denavit::geometry::Transform;
 use denavit::random::Random;
 use denavit::robot::Robot;
@@ -47,8 +47,14 @@ const KEPT: usize = 2;
 const STILL: f64 = 1e-10;
 
 impl Links {
-    /// The links of a chain through a tree of bodies, those off the chain among them that are fixed to links of it.
-    pub fn new(m: &Mechanism, chain: &Chain, robot: &Robot<f64>) -> Self {
+    /// The links of a chain through a tree of bodies, those off the chain among them that are fixed to links of it. `description` is the
+    /// table of the chain, with values for its parameters.
+    ///
+    /// # Errors
+    /// If a parameter has no value.
+    pub fn new(m: &Mechanism, chain: &Chain, description: &Description) -> Result<Self, MissingValue> {
+        // As the functions in C have it.
+        let robot = Robot::numeric(&description.made_rigid().0)?;
         let mut random = Random(7);
         let variables = m.variables();
         let placing = m.placing();
@@ -83,13 +89,13 @@ impl Links {
                 known: known.collect(),
             })
         });
-        Links {
+        Ok(Links {
             base: m.bodies[chain.from].name.clone(),
             tip: m.bodies[chain.to].name.clone(),
             joints: chain.joints.iter().map(|&j| m.joints[j].name.clone()).collect(),
             links: links.collect(),
             group: None,
-        }
+        })
     }
 }
 

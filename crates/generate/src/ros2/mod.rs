@@ -45,7 +45,7 @@ pub fn generate_ros2(
         let place = |s| variables.iter().position(|v| v.symbol == s);
         inverse.given.iter().filter_map(|s| place(*s)).collect()
     };
-    let robot = Robot::numeric(description).map_err(Unable::Fixed)?;
+    let robot = Robot::numeric(&description.made_rigid().0).map_err(Unable::Fixed)?;
     let package = Package {
         title: &description.name,
         package: format!("{name}_kinematics"),
@@ -184,12 +184,7 @@ impl Package<'_> {
             let axis = if self.convention == Convention::Standard { k } else { k + 1 };
             for (terms, is_slide) in [(&row.theta.terms, false), (&row.d.terms, true)] {
                 for (joint, rate) in terms {
-                    let _ = writeln!(
-                        text,
-                        "  {{{joint}, {axis}, {}, {is_slide}, {}}},",
-                        k + 1,
-                        format_args!("{rate:?}")
-                    );
+                    let _ = writeln!(text, "  {{{joint}, {axis}, {}, {is_slide}, {rate:?}}},", k + 1);
                 }
             }
         }

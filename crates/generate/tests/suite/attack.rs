@@ -1,12 +1,11 @@
 //! Arms made at random, generated, and held to their own vectors by the very command that `generate` prints.
 
 use crate::common::{Random, share};
+use crate::packages;
 use arms::Kind;
 use denavit::description::read_toml;
-use denavit::inverse::{Goal, InverseOptions};
-use denavit_emit::{Language, Precision};
-use denavit_generate::{PackageOptions, Wanted, generate};
-use std::path::Path;
+use denavit_emit::Language;
+use denavit_generate::{Wanted, generate};
 use std::process::Command;
 
 #[path = "../../../robot/tests/suite/attack/arms.rs"]
@@ -19,16 +18,7 @@ const LANGUAGES: [Language; 2] = [Language::C, Language::JavaScript];
 fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
     let text = arms::text(&mut Random(seed), kind);
     let (description, _) = read_toml(&text).map_err(|e| format!("{e:?}\n{text}"))?;
-    let options = PackageOptions {
-        language,
-        functions: vec![Wanted::Pose, Wanted::Jacobian, Wanted::Inverse],
-        inverse: InverseOptions { goal: Goal::Pose, given: None },
-        precision: Precision::Double,
-        name: Some("arm".into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
-    };
+    let options = packages::options(language, &[Wanted::Pose, Wanted::Jacobian, Wanted::Inverse]);
     let found = std::panic::catch_unwind(|| generate(&description, &options))
         .map_err(|_| format!("it panics\n{text}"))?
         .map_err(|e| format!("{e:?}\n{text}"))?;
@@ -36,13 +26,7 @@ fn attack(kind: Kind, seed: u64, language: Language) -> Result<bool, String> {
         return Err(format!("the inverse function is missing without a reason\n{text}"));
     }
     let name = format!("attack-{kind:?}-{seed}-{language:?}");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    for file in &found.files {
-        let path = folder.join(&file.path);
-        std::fs::create_dir_all(path.parent().expect("a folder")).expect("it can be made");
-        std::fs::write(path, &file.text).expect("it can be written");
-    }
+    let folder = packages::folder(&name, &found.files);
     let command = found.test_command(language);
     let run = Command::new("sh").args(["-c", &command]).current_dir(&folder).output().expect("a shell");
     if !run.status.success() {

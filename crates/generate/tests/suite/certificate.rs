@@ -2,15 +2,15 @@
 //! the forward model alone.
 
 use crate::common::{Random, case, robot};
-use denavit::inverse::{self, Goal};
+use crate::packages;
 use denavit::space::JointSpace;
 use denavit::{Description, Robot};
-use denavit_emit::{Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{PackageOptions, Wanted, generate};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Reads poses, 12 numbers a line; writes the certificate, the number of solutions, and for each `free` and the joints.
@@ -60,35 +60,16 @@ struct Answer {
 
 impl Arm {
     fn new(name: &str, d: &Description) -> Arm {
-        let options = PackageOptions {
-            language: Language::C,
-            functions: vec![Wanted::Inverse],
-            inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
-            precision: Precision::Double,
-            name: Some("arm".into()),
-            masses: None,
-            loads: denavit::dynamics::Loads::default(),
-            fixed: true,
-        };
+        let options = PackageOptions { fixed: true, ..packages::options(Language::C, &[Wanted::Inverse]) };
         let generated = generate(d, &options).expect("parameters have values");
         assert!(generated.inverse.is_some_and(|i| !i.by_elimination), "{name} has a closed form");
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("certificate-{name}"));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).expect("it can be made");
-        for file in &generated.files {
-            fs::write(folder.join(&file.path), &file.text).expect("it can be written");
-        }
+        let folder = packages::folder(&format!("certificate-{name}"), &generated.files);
         let robot = Robot::numeric(d).expect("parameters have values");
         let driver = DRIVER.replace("@parameters@", "").replace("@n@", &robot.joints.to_string());
         fs::write(folder.join("driver.c"), driver).expect("it can be written");
         let program = folder.join("driver");
-        let built = Command::new("cc")
-            .args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "driver.c", "-lm", "-o"])
-            .arg(&program)
-            .current_dir(&folder)
-            .output()
-            .expect("there is a compiler");
-        assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+        let flags = ["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "driver.c", "-lm", "-o"];
+        packages::run(Command::new("cc").args(flags).arg(&program).current_dir(&folder));
         let space = JointSpace::new(d, &robot);
         Arm { robot, space, program, folder }
     }

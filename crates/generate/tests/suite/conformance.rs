@@ -3,12 +3,13 @@
 
 use crate::common::{Random, robot, share};
 use crate::general::ONE_SLIDE;
+use crate::packages;
 use denavit::description::read_toml;
 use denavit::geometry::Transform;
 use denavit::inverse::{Answer, Goal, InverseKinematics, InverseOptions};
 use denavit::space::JointSpace;
 use denavit::{Description, Robot};
-use denavit_emit::{File, Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{Inverse, PackageOptions, Wanted, generate};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
@@ -200,12 +201,8 @@ impl Arm {
             .replace("@given@", if given.is_empty() { "" } else { "given, " })
             .replace("@n@", &robot.joints.to_string());
         fs::write(folder.join("driver.c"), driver).expect("it can be written");
-        let built = Command::new("cc")
-            .args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "driver.c", "-lm", "-o", "driver"])
-            .current_dir(&folder)
-            .output()
-            .expect("there is a compiler");
-        assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+        let flags = ["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "driver.c", "-lm", "-o", "driver"];
+        packages::run(Command::new("cc").args(flags).current_dir(&folder));
         let inverse = InverseOptions { goal: Goal::Pose, given: Some(given.clone()) };
         let solver = InverseKinematics::new(d, &inverse).expect("the arm can be solved");
         let space = JointSpace::new(d, &robot);
@@ -321,29 +318,10 @@ impl Arm {
 
 /// Writes the functions into an empty folder.
 fn written(d: &Description, language: Language, folder: &Path) -> Inverse {
-    let options = PackageOptions {
-        language,
-        functions: vec![Wanted::Inverse],
-        inverse: InverseOptions { goal: Goal::Pose, given: None },
-        precision: Precision::Double,
-        name: Some("arm".into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: true,
-    };
+    let options = PackageOptions { fixed: true, ..packages::options(language, &[Wanted::Inverse]) };
     let generated = generate(d, &options).expect("parameters have values");
-    write_into(folder, &generated.files);
+    packages::write(folder, &generated.files);
     generated.inverse.unwrap_or_else(|| panic!("{:?}", generated.refused))
-}
-
-/// Writes files into an empty folder.
-fn write_into(folder: &Path, files: &[File]) {
-    let _ = fs::remove_dir_all(folder);
-    for file in files {
-        let path = folder.join(&file.path);
-        fs::create_dir_all(path.parent().expect("it is in a folder")).expect("it can be made");
-        fs::write(path, &file.text).expect("it can be written");
-    }
 }
 
 /// Regular configurations; with joints at multiples of a quarter turn; beside these.
@@ -557,30 +535,21 @@ fn the_nearest_is_within_the_limits() {
         ("franka-panda", -1, 6.0, 0),
         ("franka-panda", -1, 0.05, 1),
     ] {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("limits-{name}-{is_narrow}"));
         let options = PackageOptions {
-            language: Language::C,
-            functions: vec![Wanted::Pose, Wanted::Inverse],
-            inverse: InverseOptions { goal: Goal::Pose, given: None },
-            precision: Precision::Double,
-            name: Some("arm".into()),
-            masses: None,
-            loads: denavit::dynamics::Loads::default(),
             fixed: true,
+            ..packages::options(Language::C, &[Wanted::Pose, Wanted::Inverse])
         };
-        write_into(&folder, &generate(&robot(name), &options).expect("parameters have values").files);
+        let made = generate(&robot(name), &options).expect("parameters have values");
+        let folder = packages::folder(&format!("limits-{name}-{is_narrow}"), &made.files);
         fs::write(folder.join("limits.c"), include_str!("limits.c")).expect("it can be written");
-        let built = Command::new("cc")
-            .args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "limits.c", "-lm", "-o", "limits"])
-            .args(if straight < 0 { &["-DHAS_GIVEN"][..] } else { &[] })
-            .current_dir(&folder)
-            .output()
-            .expect("there is a compiler");
-        assert!(built.status.success(), "{name}: {}", String::from_utf8_lossy(&built.stderr));
+        let mut compile = Command::new("cc");
+        compile.args(["-O1", "-std=c99", "-ffp-contract=off", "arm.c", "limits.c", "-lm", "-o", "limits"]);
+        packages::run(
+            compile.args(if straight < 0 { &["-DHAS_GIVEN"][..] } else { &[] }).current_dir(&folder),
+        );
         let count = share(5_000, 200);
         let words = [straight.to_string(), far.to_string(), is_narrow.to_string(), count.to_string()];
-        let output = Command::new(folder.join("limits")).args(words).output().expect("it runs");
-        let text = String::from_utf8_lossy(&output.stdout);
+        let text = packages::run(Command::new(folder.join("limits")).args(words));
         let numbers: Vec<usize> = text.split_whitespace().filter_map(|w| w.parse().ok()).collect();
         // Of all self-motions of an arm far away some lead to no limits: one in a thousand.
         let lost = if straight < 0 && far > 1.0 { count / 1000 } else { 0 };

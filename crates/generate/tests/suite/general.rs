@@ -2,17 +2,18 @@
 
 use denavit::description::{JointKind, read_toml};
 use denavit::geometry::{Rotation, Transform};
+use denavit::inverse::JointSpace;
 use denavit::inverse::general::GeneralSolver;
-use denavit::inverse::{self, Goal, JointSpace};
 use denavit::{Description, Robot, catalogue};
-use denavit_emit::{Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{Generated, PackageOptions, Wanted, generate};
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use crate::common::{Random, share};
+use crate::packages::{self, folder, run};
 
 /// Strict C, as C programmers who ship it have it.
 const STRICT: &str = "-O2 -Wall -Wextra -Werror -pedantic -std=c99 -ffp-contract=off";
@@ -26,16 +27,7 @@ fn generated(d: &Description, language: Language, functions: &[Wanted]) -> Gener
 }
 
 fn generated_as(name: &str, d: &Description, language: Language, functions: &[Wanted]) -> Generated {
-    let options = PackageOptions {
-        language,
-        functions: functions.to_vec(),
-        inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
-        precision: Precision::Double,
-        name: Some(name.into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
-    };
+    let options = PackageOptions { name: Some(name.into()), ..packages::options(language, functions) };
     generate(d, &options).expect("nothing is fixed")
 }
 
@@ -47,24 +39,6 @@ fn read(text: &str) -> Description {
     read_toml(text).expect("it can be read").0
 }
 
-/// A folder of its own with the files.
-fn folder(name: &str, generated: &Generated) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    for file in &generated.files {
-        let path = folder.join(&file.path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("it can be made");
-        fs::write(path, &file.text).expect("it can be written");
-    }
-    folder
-}
-
-fn run(command: &mut Command) {
-    let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    let words = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success(), "{command:?}\n{}", words.concat());
-}
-
 /// Both functions and the inverse one alone, as C.
 fn check_c(name: &str, d: &Description, least: usize) {
     for (suffix, functions) in [("both", &[Wanted::Pose, Wanted::Inverse][..]), ("alone", &[Wanted::Inverse])]
@@ -72,7 +46,7 @@ fn check_c(name: &str, d: &Description, least: usize) {
         let found = generated(d, Language::C, functions);
         let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
         assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
-        let target = folder(&format!("elimination-c-{name}-{suffix}"), &found);
+        let target = folder(&format!("elimination-c-{name}-{suffix}"), &found.files);
         run(Command::new("make").arg("test").arg(format!("CFLAGS={STRICT}")).current_dir(target));
     }
 }
@@ -178,7 +152,7 @@ int main(void)
 fn check_aligned(name: &str, d: &Description) {
     let all = aligned(d, share(2000, 60));
     let found = generated(d, Language::C, &[Wanted::Inverse]);
-    let target = folder(&format!("elimination-c-{name}-aligned"), &found);
+    let target = folder(&format!("elimination-c-{name}-aligned"), &found.files);
     let (mut poses, mut known, mut first) = (String::new(), String::new(), vec![0]);
     let row = |x: &[f64]| x.iter().map(|x| format!("{x:?}")).collect::<Vec<String>>().join(", ");
     for pose in &all {
@@ -259,7 +233,7 @@ impl Interpreted {
         let found = generated(d, self.language, &[Wanted::Pose, Wanted::Inverse]);
         let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
         assert!(inverse.by_elimination && inverse.vectors >= least, "{name}: {} poses", inverse.vectors);
-        let target = folder(&format!("elimination-{:?}-{name}", self.language), &found);
+        let target = folder(&format!("elimination-{:?}-{name}", self.language), &found.files);
         let test = found.files.iter().map(|f| &f.path).find(|p| p.starts_with("test_")).expect("a test");
         run(Command::new(&self.program).args(self.arguments).arg(test).current_dir(&target));
 
@@ -317,7 +291,7 @@ fn check_rust(arms: &[(&str, &Description, usize)]) {
         let found = generated_as(name, d, Language::Rust, &functions);
         let inverse = found.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", found.refused));
         assert!(inverse.by_elimination && inverse.vectors >= *least, "{name}: {} poses", inverse.vectors);
-        folder(&format!("elimination-rust/{name}"), &found);
+        folder(&format!("elimination-rust/{name}"), &found.files);
     }
     let members: Vec<&str> = arms.iter().map(|arm| arm.0).collect();
     let manifest = format!("[workspace]\nresolver = \"3\"\nmembers = {members:?}\n");

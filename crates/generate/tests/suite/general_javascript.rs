@@ -2,17 +2,17 @@
 
 use denavit::geometry::Transform;
 use denavit::inverse::general::GeneralSolver;
-use denavit::inverse::{Goal, InverseOptions};
 use denavit::space::JointSpace;
 use denavit::{Description, Robot};
-use denavit_emit::{Language, Precision};
-use denavit_generate::{PackageOptions, Wanted, generate};
+use denavit_emit::Language;
+use denavit_generate::{Wanted, generate};
 use std::fmt::Write;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::common::{Random, robot, share};
+use crate::packages::{self, folder, run};
 
 /// One prismatic joint among oblique axes.
 const ONE_SLIDE: &str = include_str!("../robots/one-slide.toml");
@@ -60,35 +60,11 @@ struct Found {
 
 /// A folder with `fk` and `ik`.
 fn written(name: &str, d: &Description, language: Language) -> PathBuf {
-    let options = PackageOptions {
-        language,
-        functions: vec![Wanted::Pose, Wanted::Inverse],
-        inverse: InverseOptions { goal: Goal::Pose, given: None },
-        precision: Precision::Double,
-        name: Some("arm".into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
-    };
+    let options = packages::options(language, &[Wanted::Pose, Wanted::Inverse]);
     let generated = generate(d, &options).expect("nothing is fixed");
     let inverse = generated.inverse.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", generated.refused));
     assert!(inverse.by_elimination && inverse.vectors >= 12, "{name}: {} poses", inverse.vectors);
-    let folder =
-        Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("elimination-{language:?}-{name}-random"));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("it can be made");
-    for file in &generated.files {
-        fs::write(folder.join(&file.path), &file.text).expect("it can be written");
-    }
-    folder
-}
-
-/// Runs a program that succeeds.
-fn run(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    let words = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success(), "{command:?}\n{}", words.concat());
-    words[0].clone()
+    folder(&format!("elimination-{language:?}-{name}-random"), &generated.files)
 }
 
 fn read(text: &str) -> Vec<Found> {

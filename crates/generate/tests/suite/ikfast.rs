@@ -1,11 +1,12 @@
 //! Files with IKFast's interface: built, held to their own test, to the library, and to what those expect that include them.
 
 use crate::common::{Random, robot, share};
+use crate::packages::{self, folder, run};
 use denavit::Description;
 use denavit::inverse::{Goal, InverseKinematics, InverseOptions};
 use denavit::robot::Robot;
 use denavit::space::JointSpace;
-use denavit_emit::{Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{Generated, PackageOptions, Unable, Wanted, generate};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -21,14 +22,8 @@ const COMPILER: &[&str] =
 
 fn options(goal: Goal) -> PackageOptions {
     PackageOptions {
-        language: Language::IkFast,
-        functions: vec![Wanted::Pose, Wanted::Inverse],
         inverse: InverseOptions { goal, given: None },
-        precision: Precision::Double,
-        name: Some("arm".into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
+        ..packages::options(Language::IkFast, &[Wanted::Pose, Wanted::Inverse])
     }
 }
 
@@ -39,22 +34,10 @@ fn generated(d: &Description, goal: Goal) -> Generated {
 /// A folder of its own with the files.
 fn written(name: &str, generated: &Generated) -> PathBuf {
     assert!(!generated.files.is_empty(), "{name}: {:?}", generated.refused);
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ikfast-{name}"));
-    let _ = fs::remove_dir_all(&folder);
     for file in &generated.files {
         assert!(file.text.len() <= LARGEST, "{name}: {} has {} bytes", file.path, file.text.len());
-        let path = folder.join(&file.path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("it can be made");
-        fs::write(path, &file.text).expect("it can be written");
     }
-    folder
-}
-
-fn run(command: &mut Command) -> String {
-    let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    let words = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success(), "{command:?}\n{}", words.concat());
-    words.concat()
+    folder(&format!("ikfast-{name}"), &generated.files)
 }
 
 /// Builds a program from a text and runs it.

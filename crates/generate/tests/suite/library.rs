@@ -1,10 +1,11 @@
 //! What the tests of generated functions hold.
 
+use crate::packages;
 use denavit::description::{Decimals, read_toml, read_urdf};
 use denavit::dynamics::DynamicFunction;
 use denavit::inverse::{self, Goal};
 use denavit::{Description, catalogue};
-use denavit_emit::{Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{Generated, PackageOptions, Unable, Wanted, generate, generate_tree};
 
 fn robot(name: &str) -> Description {
@@ -29,16 +30,7 @@ fn functions(d: &Description, wanted: &[Wanted], inverse: inverse::InverseOption
 }
 
 fn options(language: Language, wanted: &[Wanted], inverse: inverse::InverseOptions) -> PackageOptions {
-    PackageOptions {
-        language,
-        functions: wanted.to_vec(),
-        inverse,
-        precision: Precision::Double,
-        name: None,
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
-    }
+    PackageOptions { inverse, name: None, ..packages::options(language, wanted) }
 }
 
 /// Six random configurations and one a joint are in general position in all but one joint; where rounding decides how
@@ -117,14 +109,8 @@ fn whole_trees_are_generated() {
         [DynamicFunction::Torque, DynamicFunction::Inertia, DynamicFunction::TorqueWithDerivatives];
     for language in Language::ALL {
         let options = PackageOptions {
-            language,
-            functions: functions.map(Wanted::Dynamic).to_vec(),
-            inverse: inverse::InverseOptions { goal: Goal::Pose, given: None },
-            precision: Precision::Double,
             name: Some("solo".into()),
-            masses: None,
-            loads: denavit::dynamics::Loads::default(),
-            fixed: false,
+            ..packages::options(language, &functions.map(Wanted::Dynamic))
         };
         if language == Language::IkFast {
             let why = Unable::NotInInterface(options.functions[0]);

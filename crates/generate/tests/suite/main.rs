@@ -7,6 +7,7 @@ mod general;
 mod general_javascript;
 mod ikfast;
 mod library;
+mod packages;
 mod ros2;
 mod stack;
 

@@ -1,9 +1,9 @@
 //! Packages for ROS 2: their own test, and their plug-ins behind stand-ins for ROS's headers.
 
+use crate::packages::{self, run};
 use denavit::description::{Chain, Convention, Decimals, JointKind, Mechanism, read_urdf};
 use denavit::inverse::{Goal, InverseOptions};
-use denavit::robot::Robot;
-use denavit_emit::{Language, Precision};
+use denavit_emit::Language;
 use denavit_generate::{Links, PackageOptions, Wanted, generate_ros2};
 use std::fmt::Write;
 use std::fs;
@@ -16,33 +16,15 @@ fn package(file: &str, tip: &str, goal: Goal) -> (PathBuf, Mechanism, Chain) {
     let text = fs::read_to_string(path).expect("the file is there");
     let (mechanism, _) = read_urdf(&text, Decimals::Meant).expect("it can be read");
     let chain = mechanism.chain(None, Some(tip), Convention::Craig).expect("there is a chain");
-    let robot = Robot::numeric(&chain.description).expect("it has values");
     let options = PackageOptions {
-        language: Language::C,
-        functions: vec![Wanted::Pose, Wanted::Inverse],
         inverse: InverseOptions { goal, given: None },
-        precision: Precision::Double,
         name: Some(file.into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
+        ..packages::options(Language::C, &[Wanted::Pose, Wanted::Inverse])
     };
-    let links = Links::new(&mechanism, &chain, &robot);
+    let links = Links::new(&mechanism, &chain, &chain.description).expect("it has values");
     let made = generate_ros2(&chain.description, &links, &options).expect("it can be generated");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("ros2-{file}"));
-    let _ = fs::remove_dir_all(&folder);
-    for f in &made.files {
-        let path = folder.join(&f.path);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("it can be made");
-        fs::write(path, &f.text).expect("it can be written");
-    }
+    let folder = packages::folder(&format!("ros2-{file}"), &made.files);
     (folder, mechanism, chain)
-}
-
-fn run(command: &mut Command) {
-    let output = command.output().unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    let words = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    assert!(output.status.success(), "{command:?}\n{}", words.concat());
 }
 
 /// The robot model of the driver: the joints of the URDF, written out.

@@ -1,12 +1,11 @@
 //! What generated inverse kinematics takes of the stack: the deepest chain of calls, by what gcc says of each function.
 
-use denavit::inverse::{Goal, InverseOptions};
+use crate::packages;
 use denavit::{Description, catalogue};
-use denavit_emit::{Language, Precision};
-use denavit_generate::{PackageOptions, Wanted, generate};
+use denavit_emit::Language;
+use denavit_generate::{Wanted, generate};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
 use std::process::Command;
 
 /// The compilers, each with what its processor is.
@@ -56,35 +55,17 @@ impl Calls {
 
 /// Chains from functions stay within bounds (bytes).
 fn check(name: &str, d: &Description, bounds: &[(&str, usize)]) {
-    let options = PackageOptions {
-        language: Language::C,
-        functions: vec![Wanted::Inverse],
-        inverse: InverseOptions { goal: Goal::Pose, given: None },
-        precision: Precision::Double,
-        name: Some("arm".into()),
-        masses: None,
-        loads: denavit::dynamics::Loads::default(),
-        fixed: false,
-    };
+    let options = packages::options(Language::C, &[Wanted::Inverse]);
     let generated = generate(d, &options).expect("nothing is fixed");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("stack-{name}"));
-    fs::create_dir_all(&folder).expect("it can be made");
-    for file in &generated.files {
-        fs::write(folder.join(&file.path), &file.text).expect("it can be written");
-    }
+    let folder = packages::folder(&format!("stack-{name}"), &generated.files);
     for compiler in COMPILERS {
         let Ok(version) = Command::new(compiler[0]).arg("--version").output() else { continue };
         // What is called gcc may be another compiler.
         if !String::from_utf8_lossy(&version.stdout).contains("Free Software Foundation") {
             continue;
         }
-        let output = Command::new(compiler[0])
-            .args(&compiler[1..])
-            .args(["-std=c99", "-ffp-contract=off", "-fcallgraph-info=su", "-c", "arm.c", "-o", "arm.o"])
-            .current_dir(&folder)
-            .output()
-            .expect("it runs");
-        assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let flags = ["-std=c99", "-ffp-contract=off", "-fcallgraph-info=su", "-c", "arm.c", "-o", "arm.o"];
+        packages::run(Command::new(compiler[0]).args(&compiler[1..]).args(flags).current_dir(&folder));
         let calls = Calls::read(&fs::read_to_string(folder.join("arm.ci")).expect("it is written"));
         for (function, bound) in bounds {
             let (bytes, chain) = calls.deepest(function, &mut vec![]);

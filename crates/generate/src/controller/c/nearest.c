@@ -97,6 +97,7 @@ static NOINLINE void answer_settle(
         double trial[ANSWER_JOINTS], ahead[ANSWER_JOINTS];
         double outside[2] = {0.0, 0.0}, away[2] = {0.0, 0.0};
         double largest = 0.0, gain = 1.0, by;
+        int is_fixed[ANSWER_JOINTS] = {0};
         int is_changed = 1;
         (void)answer_error(goal, q@parameters_passed@, is_held, error, jacobian);
         for (int j = 0; j < ANSWER_JOINTS; j++) {
@@ -122,19 +123,16 @@ static NOINLINE void answer_settle(
             largest = 0.0;
             for (int j = 0; j < ANSWER_JOINTS; j++) {
                 const double near = 1e-9 * answer_unit[j];
-                double column = 0.0;
                 motion[j] = way[j] - motion[j];
-                for (int i = 0; i < ANSWER_ROWS; i++) {
-                    column += fabs(jacobian[i][j]);
-                }
-                if ((column > 0.0 || way[j] < 0.0 || way[j] > 0.0)
-                    && ((motion[j] > 1e-9 && q[j] <= limits->upper[j] + near && q[j] >= limits->upper[j] - near)
-                        || (motion[j] < -1e-9 && q[j] >= limits->lower[j] - near && q[j] <= limits->lower[j] + near))) {
+                if (!is_fixed[j]
+                    && ((motion[j] > 1e-9 && fabs(q[j] - limits->upper[j]) <= near)
+                        || (motion[j] < -1e-9 && fabs(q[j] - limits->lower[j]) <= near))) {
                     /* It would leave its limits: it stays, and the others do what they can. */
                     for (int i = 0; i < ANSWER_ROWS; i++) {
                         jacobian[i][j] = 0.0;
                     }
                     way[j] = 0.0;
+                    is_fixed[j] = 1;
                     is_changed = 1;
                 }
                 largest = fmax(largest, fabs(motion[j]));
