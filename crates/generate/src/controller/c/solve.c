@@ -18,8 +18,8 @@ static NOINLINE int answer_solve(
 {
     @name@_solve_solution found[@NAME@_SOLVE_MAX];
     int is_all;
-    result->count = answer_list(goal@given_passed@@parameters_passed@, found, &is_all);
-    for (int s = 0; s < result->count; s++) {
+    const int count = answer_list(goal@given_passed@@parameters_passed@, found, &is_all);
+    for (int s = 0; s < count; s++) {
         @name@_ik_solution *own = &result->solutions[s];
         memcpy(own->q, found[s].q, sizeof own->q);
         memset(own->motion, 0, sizeof own->motion);
@@ -28,5 +28,6 @@ static NOINLINE int answer_solve(
         own->branch = @found_branch@;
         own->dimension = 0;
     }
+    result->count = count;
     return is_all;
 }
