@@ -19,7 +19,7 @@ static NOINLINE int answer_solve(
     @name@_solve_solution found[@NAME@_SOLVE_MAX];
     int is_all;
     const int count = answer_list(goal@given_passed@@parameters_passed@, found, &is_all);
-    for (int s = 0; s < count; s++) {
+    for (int s = 0; s < @NAME@_SOLVE_MAX && s < count; s++) {
         @name@_ik_solution *own = &result->solutions[s];
         memcpy(own->q, found[s].q, sizeof own->q);
         memset(own->motion, 0, sizeof own->motion);
