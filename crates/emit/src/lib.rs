@@ -106,7 +106,7 @@ pub struct Library<'a> {
 /// A function that is no program, written out in the language of the library (CUDA leaves it out).
 ///
 /// In all its texts `@name@` stands for the name of the library, `@NAME@` for the same in capitals; in all but IkFast,
-/// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters (in Rust and
+/// `@fk_parameters@` for the last argument of a call of `fk`, with a comma before it, if that reads parameters (in C, Rust and
 /// JavaScript also `@solve_result@` for what a solver calls its results); in files for Rust,
 /// and in Python, JavaScript and MATLAB, `@Parameters(1.5, 2.0)@` for these values of all parameters.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]

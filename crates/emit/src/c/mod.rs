@@ -286,7 +286,8 @@ impl Source<'_> {
         let of_solvers =
             || self.plans.iter().map(|p| (p.name.as_str(), p.parameters(self.library).is_empty()));
         let texts = self.library.attachments.iter().map(|a| Attachment::named(text(a), &self.name));
-        texts.map(|text| Attachment::called(text, of_functions().chain(of_solvers()))).collect()
+        let called = texts.map(|text| Attachment::called(text, of_functions().chain(of_solvers())));
+        called.map(|text| Attachment::with_results(text, &self.plans)).collect()
     }
 
     fn one(&self, f: &Function) -> String {

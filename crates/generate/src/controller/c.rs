@@ -136,6 +136,7 @@ impl Controller<'_> {
             .replace("@flatten@", &flatten)
             .replace("@values@", &(places.len() + g).to_string())
             .replace("@solve_goal@", solve_goal)
+            .replace("@solve_result@", if matches!(self.solver, Solver::Closed(_)) { "@solve_result@" } else { "q" })
             .replace("@found_branch@", found_branch)
             .replace("@branch@", branch)
             .replace("@max@", &max)

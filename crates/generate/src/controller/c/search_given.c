@@ -27,9 +27,9 @@ static NOINLINE @name@_ik_status answer_search(
         answer_spread(own, previous, sample, given);
         const int count = answer_list(goal, given@parameters_passed@, found, &is_all);
         for (int s = 0; s < count; s++) {
-            double apart = answer_apart(previous, found[s].q);
+            double apart = answer_apart(previous, found[s].@solve_result@);
             int place = starts < ANSWER_STARTS ? starts++ : ANSWER_STARTS;
-            answer_offer(own, previous, found[s].q, best);
+            answer_offer(own, previous, found[s].@solve_result@, best);
             is_reached = 1;
             /* The nearest few, in order. */
             while (place > 0 && apart < away[place - 1]) {
@@ -41,7 +41,7 @@ static NOINLINE @name@_ik_status answer_search(
             }
             if (place < ANSWER_STARTS) {
                 away[place] = apart;
-                memcpy(start[place], found[s].q, sizeof start[place]);
+                memcpy(start[place], found[s].@solve_result@, sizeof start[place]);
             }
         }
     }

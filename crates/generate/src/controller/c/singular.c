@@ -299,7 +299,7 @@ static NOINLINE void answer_gather(
     const int count = answer_list(beside@given_passed@@parameters_passed@, other, &is_all);
     for (int s = 0; s < count; s++) {
         @name@_ik_solution found;
-        memcpy(found.q, other[s].q, sizeof found.q);
+        memcpy(found.q, other[s].@solve_result@, sizeof found.q);
         memset(found.motion, 0, sizeof found.motion);
         found.residual = answer_correct(goal, found.q@parameters_passed@, 1, 20);
         found.multiplicity = 1;

@@ -21,7 +21,7 @@ static NOINLINE int answer_solve(
     const int count = answer_list(goal@given_passed@@parameters_passed@, found, &is_all);
     for (int s = 0; s < @NAME@_SOLVE_MAX && s < count; s++) {
         @name@_ik_solution *own = &result->solutions[s];
-        memcpy(own->q, found[s].q, sizeof own->q);
+        memcpy(own->q, found[s].@solve_result@, sizeof own->q);
         memset(own->motion, 0, sizeof own->motion);
         own->residual = found[s].residual;
         own->multiplicity = found[s].multiplicity;
