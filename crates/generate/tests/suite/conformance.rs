@@ -6,7 +6,7 @@ use crate::general::ONE_SLIDE;
 use crate::packages;
 use denavit::description::read_toml;
 use denavit::geometry::Transform;
-use denavit::inverse::{Answer, Family, Goal, InverseKinematics, InverseOptions, Solution};
+use denavit::inverse::{Answer, Goal, InverseKinematics, InverseOptions, Solution};
 use denavit::space::JointSpace;
 use denavit::{Description, Robot};
 use denavit_emit::Language;
@@ -291,16 +291,9 @@ impl Arm {
             if off == 0.0 && !own().any(|t| self.is_same(pose, q, t, off)) {
                 return Some(format!("status {}: its own configuration is missing", coded.status));
             }
-            // One that holds for the library's tolerance alone need not be seen.
-            let is_exact = |f: &&Family| {
-                let way = f.representative.q.iter().zip(&f.direction);
-                let along: Vec<f64> = way.map(|(x, d)| x + 0.05 * d).collect();
-                let member = self.solver.nearest(pose, known, &along).map(|n| n.q);
-                member.is_some_and(|m| {
-                    self.missed(pose, &m) <= 1e-12 + off && self.space.distance(&m, &along) <= 0.025
-                })
-            };
-            if let Some(f) = known.families.iter().find(is_exact) {
+            // Where the library cannot tell all solutions, what it takes for a family may be a curve along which the hand leaves
+            // the pose slowly.
+            if let (true, Some(f)) = (known.is_complete(), known.families.first()) {
                 return Some(format!(
                     "status {}: there is a family through {:?}",
                     coded.status, f.representative.q
