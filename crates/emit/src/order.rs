@@ -1,5 +1,5 @@
-//! The steps of a block in an order in which few values wait: what waits stands in memory once the registers are taken, and
-//! loops over lanes are held up by that more than by arithmetic.
+//! Steps in an order in which few values wait: what waits stands in memory once the registers are taken, and loops over lanes, and
+//! large functions, are held up by that more than by arithmetic.
 
 use crate::compiled::{Function, Step, formulas};
 use denavit_symbolic::Symbol;
@@ -10,13 +10,19 @@ const FEW: usize = 40;
 /// With more steps one order is not sought step by step.
 const MANY: usize = 4_000;
 
-/// So large a function has no registers left for a second vector.
+/// So large a function has no registers left for a second vector, nor, for one state, for all that waits.
 const LARGE: u32 = 600;
 
 /// Whether loops over the lanes of a function should take one vector at a time: its flags are as wide as its numbers then, of
 /// narrower ones compilers make one vector beside two of numbers.
 pub(crate) fn is_large(f: &Function) -> bool {
     f.routine.program.count().cost() >= LARGE
+}
+
+/// The steps of a function for one state: those of a large one in the order of blocks.
+pub(crate) fn for_one(f: &Function) -> Vec<Step> {
+    let body = if is_large(f) { for_blocks(f) } else { f.body.clone() };
+    f.hoisted.iter().cloned().chain(body).collect()
 }
 
 /// The steps of a function's body for a block: as they are, or in another order if values wait a quarter less in it.

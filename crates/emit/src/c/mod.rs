@@ -15,7 +15,7 @@ use crate::compiled::{
     lanes, lines, opening,
 };
 use crate::names::{Names, brief};
-use crate::order::{for_blocks, is_large};
+use crate::order::{for_blocks, for_one, is_large};
 use crate::solver::{Plan, plans};
 use crate::spelling::Spelling;
 use crate::wrap::comments;
@@ -303,7 +303,7 @@ impl Source<'_> {
         }
         out.blank();
         let mut names = f.names.clone();
-        for step in f.steps() {
+        for step in &for_one(f) {
             match step {
                 Step::Pairs(pairs) => {
                     for run in Function::runs(pairs) {

@@ -14,6 +14,7 @@ use crate::compiled::{
     opening,
 };
 use crate::names::{Names, brief, comment};
+use crate::order::for_one;
 use crate::solver::{Kind, Plan, plans};
 use crate::spelling::Spelling;
 use crate::wrap::comments;
@@ -358,7 +359,7 @@ impl Source<'_> {
             out.line(&format!("let mut {} = {zeros};", f.result));
         }
         let mut results: Vec<Expr> = vec![];
-        for step in f.steps() {
+        for step in &for_one(f) {
             match step {
                 Step::Pairs(pairs) => {
                     out.blank();
