@@ -47,7 +47,7 @@ static NOINLINE void ik_flush(ik_batch *batch)
 {
     ik_work *work = batch->work;
     const int before = work->count;
-    int lane[IK_FEW];
+    int lane[IK_FEW] = {0};
     double residual[IK_FEW];
     if (batch->count == 0) {
         return;

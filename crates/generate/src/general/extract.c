@@ -333,7 +333,7 @@ static int ik_real_eigenvalues(
 /* A vector that a matrix, singular or almost, takes to nearly zero. */
 static void ik_null_vector(double m[IK_SHARED][IK_SHARED], int size, double out[IK_SHARED])
 {
-    int order[IK_SHARED];
+    int order[IK_SHARED] = {0};
     double y[IK_SHARED];
     for (int k = 0; k < size; k++) {
         order[k] = k;

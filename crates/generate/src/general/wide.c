@@ -452,7 +452,7 @@ static NOINLINE int ik_wide_samples(const ik_chart *chart, ik_work *work)
 /* Offers the null vectors at the roots. */
 static NOINLINE void ik_wide_candidates(const ik_chart *chart, ik_batch *batch)
 {
-    int group[IK_WIDE_ROOTS];
+    int group[IK_WIDE_ROOTS] = {0};
     const int groups = ik_grouped(batch->work, chart, group);
     for (int own = 0; own < groups; own++) {
         if (ik_settle_middle(chart, group, own, batch)) {

@@ -342,7 +342,7 @@ static NOINLINE @name@_ik_status answer_singular(
     double goal[4][4],@given_local@@parameters_local@
     @name@_ik_result *result)
 {
-    double listed[ANSWER_NEIGHBOURS + 1][ANSWER_JOINTS];
+    double listed[ANSWER_NEIGHBOURS + 1][ANSWER_JOINTS] = {{0.0}};
     const int count = result->count;
     int is_family = 0;
     if (ANSWER_NEIGHBOURS == 0) {
