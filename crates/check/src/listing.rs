@@ -201,7 +201,7 @@ fn told_rows(text: &str) -> Option<Listing> {
             }
         }
     }
-    (rows.len() > 1).then(|| {
+    (rows.len() > 1 && !is_transform(&rows)).then(|| {
         let in_degrees = degrees(&rows);
         Listing { span, rows, convention: None, in_degrees, is_previous }
     })
@@ -475,7 +475,7 @@ fn lists(text: &str) -> Option<Listing> {
         let open = plain.rfind("= [").filter(|_| rows.is_empty()).map_or(plain, |i| &plain[i + 3..]).trim();
         let found = rows_in(open, told.as_deref().or(by_function.as_deref()));
         if found.is_empty() {
-            if rows.len() > 1 {
+            if rows.len() > 1 && !is_transform(&rows) {
                 break;
             }
             rows.clear();
@@ -490,10 +490,19 @@ fn lists(text: &str) -> Option<Listing> {
         span.end = place.end;
         rows.extend(found);
     }
-    (rows.len() > 1).then(|| {
+    (rows.len() > 1 && !is_transform(&rows)).then(|| {
         let in_degrees = degrees(&rows);
         Listing { span, rows, convention: None, in_degrees, is_previous: false }
     })
+}
+
+/// Whether rows are those of a matrix of a transform, whose last one is 0 0 0 1.
+fn is_transform(rows: &[[String; 4]]) -> bool {
+    let is_last = |row: &[String; 4]| {
+        let is = |cell: &str, number: f64| cell.trim().parse() == Ok(number);
+        row.iter().filter(|c| is(c, 0.0)).count() == 3 && row.iter().any(|c| is(c, 1.0))
+    };
+    rows.last().is_some_and(is_last)
 }
 
 /// `(t1, L1, 0, pi/2), (t2, 0, 0, 0)` of one line.

@@ -334,7 +334,15 @@ impl Program<'_> {
                     true => self.component(name, &shown, span, &r.value),
                     false => self.named(name, &shown, span, &r.value),
                 });
-            found.extend(named.or_else(|| {
+            // `def T12(th2): return np.array(…)`
+            let called = || match (&r.value, r.name.as_deref()) {
+                (Value::Matrix(_), None) => self.named(&function.name, &shown, span, &r.value),
+                (Value::Matrix(_), Some(name)) if words(name).all(|w| w.len() == 1) => {
+                    self.named(&function.name, &shown, span, &r.value)
+                }
+                _ => None,
+            };
+            found.extend(named.or_else(called).or_else(|| {
                 match &r.value {
                     Value::Matrix(rows) => self
                         .torques(r.name.as_deref().unwrap_or(&function.name), &shown, span, rows)
