@@ -80,6 +80,8 @@ pub(super) struct Walked {
     pub followed: Vec<Followed>,
     /// Names that programs give values with joints in them, and where.
     pub unsaid: Vec<(Range<usize>, String)>,
+    /// Names that programs give numbers, and the robot does not have.
+    pub numbers: Vec<String>,
     /// The names of each robot's part of the document, at its end.
     pub names: Vec<Rc<Vocabulary>>,
     /// The same with the entries of the pose as symbols.
@@ -461,7 +463,7 @@ impl Plan {
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
         let of_document = assertions.len();
         let source = self.programs.as_deref().unwrap_or(text);
-        let (mut followed, mut unsaid) = (vec![], vec![]);
+        let (mut followed, mut unsaid, mut numbers) = (vec![], vec![], vec![]);
         for (number, language, blocks) in self.blocks(text, document, options) {
             let outputs = outputs(text, document, &blocks);
             let of = Source {
@@ -478,6 +480,7 @@ impl Plan {
             refused.extend(found.refused);
             followed.extend(found.followed);
             unsaid.extend(found.unsaid);
+            numbers.extend(found.numbers);
             walk.defined.extend(found.defined);
         }
         walk.defined.sort_by_key(|d| d.from);
@@ -511,6 +514,7 @@ impl Plan {
             refused,
             followed,
             unsaid,
+            numbers,
             names,
             inverse_names,
             stated,

@@ -73,6 +73,12 @@ fn unknown(walked: &Walked) -> Vec<String> {
             *counts.entry(name.clone()).or_default() += 1;
         }
     }
+    // In programs a formula is refused as a whole, and a length may have a number.
+    let refused =
+        walked.refused.iter().filter_map(Unread::unknown).chain(walked.numbers.iter().map(String::as_str));
+    for name in refused.map(plain_name).filter(|n| is_length(n)) {
+        *counts.entry(name).or_default() += 1;
+    }
     let mut names: Vec<(String, usize)> = counts.into_iter().collect();
     names.sort_by_key(|n| std::cmp::Reverse(n.1));
     names.into_iter().map(|n| n.0).take(MOST_NAMES).collect()

@@ -1,11 +1,13 @@
 //! Names that programs define, and those of which nothing is said.
 
 use super::followed::entries_of;
+use crate::lexis::Lexis;
 use crate::subject::Subject;
 use crate::walk::{Assertion, Defined};
 use denavit_reading::code::{Code, Value};
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::{Expr, Node};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// What a program computes from the joints.
@@ -56,4 +58,16 @@ pub(super) fn defined(
     }
     found.dedup_by(|a, b| a.span == b.span);
     found
+}
+
+/// Names that a program gives numbers, and that the robot does not have.
+pub(super) fn numbers(codes: &[Code], lexis: &Lexis) -> Vec<String> {
+    let functions = codes.iter().flat_map(|c| &c.functions).filter(|f| f.name.is_empty());
+    let is_number = |value: &Value| match value {
+        Value::Scalar(cell) => cell.value.symbols().is_empty() && !cell.value.is_zero(),
+        Value::Matrix(_) => false,
+    };
+    let assigned = functions.flat_map(|f| &f.assigned).filter(|a| is_number(&a.value));
+    let names: BTreeSet<&String> = assigned.map(|a| &a.name).collect();
+    names.into_iter().filter(|n| lexis.names.lookup(n).is_none()).cloned().collect()
 }

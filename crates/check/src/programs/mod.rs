@@ -27,7 +27,7 @@ use called::{
     as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
     lacking, names_in, says_inverse, without,
 };
-use defined::{defined, unsaid};
+use defined::{defined, numbers, unsaid};
 use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
 use denavit_symbolic::parse::ParseError;
@@ -54,6 +54,8 @@ pub(super) struct Programs {
     pub followed: Vec<Followed>,
     /// Names that get a value with joints in it of which nothing is said, and where.
     pub unsaid: Vec<(Range<usize>, String)>,
+    /// Names that get numbers, and that the robot does not have.
+    pub numbers: Vec<String>,
 }
 
 /// A claim whose entries are right given what the program computed before.
@@ -178,6 +180,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     found.assertions.extend(outputs);
     found.followed.extend(follow);
     found.unsaid = unsaid(&codes, subject);
+    found.numbers = numbers(&codes, lexis);
     found.defined = defined(source, &codes, &found.assertions, number);
     let telling = Telling { subject, habits, lexis, functions: of.posed };
     posed::solutions(of, &telling, &asked, &mut found);
