@@ -3,7 +3,7 @@
 use super::JACOBIANS;
 use super::stated::in_radians;
 use super::{Program, recognised};
-use crate::facts::{About, Meaning};
+use crate::facts::{About, Jacobian, Meaning};
 use crate::jacobians::Part;
 use crate::lexis::Lexis;
 use crate::matrix::Matrix;
@@ -18,6 +18,42 @@ use denavit_symbolic::{Expr, Rational, Symbol, equal};
 use std::ops::Range;
 
 impl Program<'_> {
+    /// What a function gives back.
+    pub(super) fn returned(&self, function: &Reading) -> Vec<Assertion> {
+        let mut found = vec![];
+        for r in &function.returned {
+            let shown = r.name.clone().unwrap_or_else(|| format!("{}(…)", function.name));
+            // A name is given back, its formula stands where it got its value.
+            let own = |name: &String| function.assigned.iter().rev().find(|a| a.name == *name);
+            let span = r.name.as_ref().and_then(own).map_or(&r.span, |a| &a.span);
+            let is_other =
+                |n: &&String| is_of_part(function) && matches!(n.to_lowercase().as_str(), "x" | "y" | "z");
+            let named =
+                r.name.as_ref().filter(|n| !is_other(n)).and_then(|name| match is_velocity(function) {
+                    true => self.component(name, &shown, span, &r.value),
+                    false => self.named(name, &shown, span, &r.value),
+                });
+            // `def T12(th2): return np.array(…)`
+            let called = || match (&r.value, r.name.as_deref()) {
+                (Value::Matrix(_), None) => self.named(&function.name, &shown, span, &r.value),
+                (Value::Matrix(_), Some(name)) if words(name).all(|w| w.len() == 1) => {
+                    self.named(&function.name, &shown, span, &r.value)
+                }
+                _ => None,
+            };
+            found.extend(named.or_else(called).or_else(|| {
+                match &r.value {
+                    Value::Matrix(rows) => self
+                        .torques(r.name.as_deref().unwrap_or(&function.name), &shown, span, rows)
+                        .or_else(|| self.velocity(function, &shown, span, rows))
+                        .or_else(|| self.pose(function, &shown, span, rows)),
+                    Value::Scalar(cell) => self.by_function(function, span, cell, &shown),
+                }
+            }));
+        }
+        found
+    }
+
     /// An axis of a frame, or another point, that a vector is in all its entries.
     pub(super) fn other_vector(&self, rows: &[Vec<Cell>]) -> Option<(Matrix, Meaning)> {
         let values = rows.iter().map(|r| r.iter().map(|c| Some(in_radians(c.value))).collect()).collect();
@@ -25,6 +61,27 @@ impl Program<'_> {
         let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
         let is_axis = matches!(about, Meaning::Axis(..));
         (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
+    }
+
+    /// The Jacobian of the joints that a function takes, or of the first ones if it is that for the greater part.
+    pub(super) fn jacobian_of(
+        &self,
+        values: &Matrix,
+        taken: &[usize],
+        columns: usize,
+    ) -> Option<(Matrix, Jacobian)> {
+        if taken.len() == columns {
+            return self.subject.jacobian_of_joints(values, taken, Part::Any);
+        }
+        let first: Vec<usize> = (0..columns).collect();
+        let found = self.subject.jacobian_of_joints(values, &first, Part::Any)?;
+        let own = values.0.iter().flatten().zip(found.0.0.iter().flatten());
+        let is_same = |(a, b): (&Option<Expr>, &Option<Expr>)| match (a, b) {
+            (Some(a), Some(b)) => equal(*a, self.with_numbers(*b, *a)).is_equal(),
+            _ => false,
+        };
+        let telling: Vec<bool> = own.filter(|(_, b)| b.is_some_and(|b| !b.is_zero())).map(is_same).collect();
+        (2 * telling.iter().filter(|t| **t).count() > telling.len()).then_some(found)
     }
 
     /// True if numbers are made of the robot's alone, or of those that the program has for its lengths.
@@ -79,6 +136,42 @@ pub(super) fn axis_of(name: &str) -> Option<usize> {
         ["fk", "get", "p", "pos", "forward", "fwd", "tcp", "ee", "hand", "tip", "end", "calc", "compute", ""];
     let words: Vec<&str> = rest.split('_').filter(|w| !w.is_empty()).collect();
     words.iter().all(|w| of_hand.contains(w)).then_some(axis)
+}
+
+/// A name without a last word that says where the author has it from: `T03_paper`.
+pub(super) fn stem(name: &str) -> &str {
+    const FROM: [&str; 26] = [
+        "paper",
+        "hand",
+        "byhand",
+        "manual",
+        "check",
+        "ref",
+        "expected",
+        "exp",
+        "book",
+        "sym",
+        "num",
+        "calc",
+        "closed",
+        "direct",
+        "simplified",
+        "simp",
+        "theory",
+        "theoretical",
+        "mine",
+        "own",
+        "short",
+        "explicit",
+        "analytic",
+        "analytical",
+        "printed",
+        "soll",
+    ];
+    let last = name
+        .rsplit_once('_')
+        .filter(|(stem, last)| !stem.is_empty() && FROM.contains(&last.to_lowercase().as_str()));
+    last.map_or(name, |(stem, _)| stem)
 }
 
 /// True for a function whose name says that it is about a part of the arm, not about the hand.

@@ -25,7 +25,7 @@ use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
 use called::{
     as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
-    lacking, names_in, says_inverse, without,
+    lacking, names_in, says_inverse, stem, without,
 };
 use defined::{defined, numbers, unsaid};
 use denavit::forward::Reference;
@@ -242,7 +242,7 @@ impl Program<'_> {
                 found.extend(self.named(&a.name, &a.name, &a.span, &a.value));
             } else if is_last
                 && !is_returned
-                && (HANDS.contains(&a.name.as_str()) || JACOBIANS.contains(&a.name.as_str()))
+                && (HANDS.contains(&stem(&a.name)) || JACOBIANS.contains(&stem(&a.name)))
                 && let Value::Matrix(rows) = &a.value
                 && self.moves(rows)
                 && !self.is_call_of_own(&a.span)
@@ -323,41 +323,6 @@ impl Program<'_> {
         found
     }
 
-    fn returned(&self, function: &Reading) -> Vec<Assertion> {
-        let mut found = vec![];
-        for r in &function.returned {
-            let shown = r.name.clone().unwrap_or_else(|| format!("{}(…)", function.name));
-            // A name is given back, its formula stands where it got its value.
-            let own = |name: &String| function.assigned.iter().rev().find(|a| a.name == *name);
-            let span = r.name.as_ref().and_then(own).map_or(&r.span, |a| &a.span);
-            let is_other =
-                |n: &&String| is_of_part(function) && matches!(n.to_lowercase().as_str(), "x" | "y" | "z");
-            let named =
-                r.name.as_ref().filter(|n| !is_other(n)).and_then(|name| match is_velocity(function) {
-                    true => self.component(name, &shown, span, &r.value),
-                    false => self.named(name, &shown, span, &r.value),
-                });
-            // `def T12(th2): return np.array(…)`
-            let called = || match (&r.value, r.name.as_deref()) {
-                (Value::Matrix(_), None) => self.named(&function.name, &shown, span, &r.value),
-                (Value::Matrix(_), Some(name)) if words(name).all(|w| w.len() == 1) => {
-                    self.named(&function.name, &shown, span, &r.value)
-                }
-                _ => None,
-            };
-            found.extend(named.or_else(called).or_else(|| {
-                match &r.value {
-                    Value::Matrix(rows) => self
-                        .torques(r.name.as_deref().unwrap_or(&function.name), &shown, span, rows)
-                        .or_else(|| self.velocity(function, &shown, span, rows))
-                        .or_else(|| self.pose(function, &shown, span, rows)),
-                    Value::Scalar(cell) => self.by_function(function, span, cell, &shown),
-                }
-            }));
-        }
-        found
-    }
-
     /// A variable whose name has a meaning.
     fn named(&self, name: &str, shown: &str, span: &Range<usize>, value: &Value) -> Option<Assertion> {
         match value {
@@ -394,6 +359,7 @@ impl Program<'_> {
                 Some(self.assertion(shown, About::Entry, span, pieces, None))
             }
             Value::Matrix(rows) => {
+                let name = stem(name);
                 let name = self.lexis.lone_name(name, &(0..name.len()))?;
                 if name.is_bare() {
                     return None;
@@ -446,10 +412,10 @@ impl Program<'_> {
         }
         let hand = Meaning::Frame { of: Reference::Tool, seen_from: Reference::Frame(0) };
         let (matrix, about) = match (rows.len(), columns) {
-            (n, m) if is_jacobian && (m == joints || m == taken.len() && m > 1) && n <= 6 => {
+            (n, m) if is_jacobian && 1 < m && m <= joints && n <= 6 => {
                 let value = |c: &Cell| Some(in_radians(c.value));
                 let values = Matrix(rows.iter().map(|r| r.iter().map(value).collect()).collect());
-                let part = match shown {
+                let part = match stem(shown) {
                     "Jv" | "J_v" | "Jp" | "J_p" => Part::Linear,
                     "Jw" | "J_w" | "Jo" | "J_o" => Part::Angular,
                     _ => Part::Any,
@@ -459,8 +425,7 @@ impl Program<'_> {
                         let told = Told { part, ..Told::default() };
                         self.subject.nearest_jacobian(values, &told, &Configuration::default())
                     }
-                    // That of the joints which the function takes.
-                    false => self.subject.jacobian_of_joints(values, &taken, Part::Any),
+                    false => self.jacobian_of(values, &taken, m),
                 };
                 match says_inverse(function, shown) {
                     false => nearest(&values).map(|(matrix, j)| (matrix, Meaning::Jacobian(j)))?,

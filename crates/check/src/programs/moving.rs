@@ -12,7 +12,7 @@ use denavit_symbolic::{Expr, equal};
 use std::ops::Range;
 
 impl Program<'_> {
-    /// The torques of all joints below one another, in an array that is called so: `tau[3]`.
+    /// The torques of all joints below one another, or of the first ones, in an array that is called so: `tau[3]`.
     pub(super) fn torques(
         &self,
         name: &str,
@@ -24,7 +24,7 @@ impl Program<'_> {
         let lower = name.to_lowercase();
         let is_called = NAMES.iter().any(|n| lower.starts_with(n) || lower.ends_with(n));
         let n = self.subject.joints().len();
-        if !is_called || rows.len() != n || rows.iter().any(|r| r.len() != 1) {
+        if !is_called || rows.len() < n.min(2) || rows.len() > n || rows.iter().any(|r| r.len() != 1) {
             return None;
         }
         let wanted = self.told_torques(rows).or_else(|| self.torques_of_argument(rows))?;
