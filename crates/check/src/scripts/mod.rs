@@ -236,11 +236,25 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         vec![Region { function: None, parameters: vec![], signs: vec![], lines: vec![], renamed: vec![] }];
     // The function that is open, and how far it is set in.
     let mut open: Option<(usize, usize)> = None;
-    let (mut is_quoted, mut is_other, mut braces, mut was_open) = (false, false, 0_i32, false);
+    let (mut is_quoted, mut is_remark, mut is_other) = (false, false, false);
+    let (mut braces, mut was_open) = (0_i32, false);
     let mut at = span.start;
     while at < span.end {
         let (line, next) = logical(text, at, span.end, language);
+        // Comments of several lines are none of the program.
+        let whole = &text[at..next.min(span.end)];
         at = next;
+        if language == Dialect::C {
+            let was_remark = is_remark;
+            is_remark = match (whole.rfind("/*"), whole.rfind("*/")) {
+                (Some(opened), Some(closed)) => opened > closed,
+                (None, None) => is_remark,
+                (opened, _) => opened.is_some(),
+            };
+            if was_remark {
+                continue;
+            }
+        }
         let source = &text[line.clone()];
         let trimmed = source.trim_start();
         let indent = source.len() - trimmed.len();
