@@ -336,7 +336,24 @@ fn looks_like_formula(line: &str) -> bool {
     let mut sides = shown.split(['=', '≈', '≡']);
     let left = sides.next().unwrap_or_default();
     let is_rule = shown.chars().all(|c| matches!(c, '=' | '-' | '+' | '|' | ' '));
-    !is_rule && is_side(left) && sides.any(is_side) && !plain_name(shown).is_empty()
+    !is_rule && is_side(left) && sides.any(is_side) && !plain_name(shown).is_empty() || is_row(shown)
+}
+
+/// True for a line of a matrix after a name: `row 1: -s1 (a2 c2 + a3 c23), -a3 c1 s23, 0`.
+fn is_row(shown: &str) -> bool {
+    let Some((name, entries)) = shown.split_once(':') else { return false };
+    let is_name =
+        name.len() < 30 && name.ends_with(|c: char| c.is_ascii_digit()) && !name.contains(['(', '"', ',']);
+    let is_part = |c: char| c.is_alphanumeric() || " +-−*/^().,;_·".contains(c);
+    let parts: Vec<&str> = entries.split([',', ';']).collect();
+    // Words of prose have more letters.
+    let words = entries.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
+    let is_short = |w: &str| w.chars().count() <= 4;
+    is_name
+        && parts.len() > 1
+        && entries.chars().all(is_part)
+        && words.clone().count() > 2
+        && words.clone().all(is_short)
 }
 
 /// True for a joint, a length or a rate, whose number is given.

@@ -235,6 +235,8 @@ impl<'a> Machine<'a> {
             _ => Some(0),
         };
         let items = match (sort, &given) {
+            // `Matrix.hstack(a, b)` takes them one by one.
+            (Sort::SympyMatrix, given) => given.positional.iter().map(|p| p.0.clone()).collect(),
             (Sort::Matlab, given) => given.positional.iter().map(|p| p.0.clone()).collect(),
             _ => self.first(given, path, span)?.items(Dialect::Python, span)?,
         };
