@@ -13,6 +13,11 @@ pub(crate) fn computed(
 ) -> Vec<(Range<usize>, String)> {
     let mut found = vec![];
     for (span, language) in programs {
+        let tests = tests(text, span);
+        let named: BTreeSet<&str> = tests
+            .iter()
+            .flat_map(|t| crate::programs::words(text.get(t.0.clone()).unwrap_or_default()))
+            .collect();
         for region in regions(text, span, *language) {
             let mut moving: BTreeSet<String> =
                 region.parameters.iter().filter(|p| !p.is_empty()).cloned().collect();
@@ -25,6 +30,10 @@ pub(crate) fn computed(
                     let is_output = text[..line.span.start].ends_with('*');
                     if !is_told && !is_output {
                         moving.remove(name);
+                        // What a test expects, in numbers.
+                        if named.contains(name.as_str()) && source.contains('[') {
+                            found.push((line.span.start..formula.end, name.clone()));
+                        }
                         continue;
                     }
                     moving.insert(name.clone());
@@ -34,8 +43,26 @@ pub(crate) fn computed(
                 }
             }
         }
+        found.extend(tests);
     }
     found
+}
+
+/// The comparisons of tests, `np.testing.assert_allclose(T, expected)`, with what they are called.
+fn tests(text: &str, span: &Range<usize>) -> Vec<(Range<usize>, String)> {
+    const CALLS: [&str; 5] = ["assert", "EXPECT_", "ASSERT_", "CHECK(", "REQUIRE("];
+    let program = text.get(span.clone()).unwrap_or_default();
+    let test = |line: Range<usize>| {
+        let source = program.get(line.clone())?;
+        let bare = source.trim();
+        let name = bare.split(['(', ' ']).next().unwrap_or_default();
+        let last = name.rsplit('.').next().unwrap_or_default();
+        let is_test =
+            CALLS.iter().any(|c| last.starts_with(c.trim_end_matches('(')) && bare.contains(['(', ' ']));
+        let start = span.start + line.start + (source.len() - source.trim_start().len());
+        is_test.then(|| (start..start + bare.len(), last.to_string()))
+    };
+    crate::lines::lines(program).filter_map(test).collect()
 }
 
 /// True for `c12 = cos(q1 + q2)`.
