@@ -50,10 +50,8 @@ pub(super) fn tables_of(
     if !is_program && !printed.is_empty() {
         return printed;
     }
-    let mut listed = vec![];
-    if is_program {
-        listed.extend(told_rows(bare).and_then(|l| table(&l, reading)));
-    }
+    let told = told_rows(bare).filter(|_| is_program).and_then(|l| table(&l, reading));
+    let (mut listed, unread): (Vec<PrintedTable>, Vec<_>) = told.into_iter().partition(|t| t.robot.is_ok());
     // A head that was taken for words leaves rows out, a length that slides a joint.
     let most = |tables: &[PrintedTable]| {
         let robots = tables.iter().filter_map(|t| t.robot.as_ref().ok().map(|(d, _)| d));
@@ -67,6 +65,9 @@ pub(super) fn tables_of(
     }
     if listed.is_empty() && (is_program || text.contains("```")) {
         listed.extend(lists(text).and_then(|l| table(&l, reading)));
+    }
+    if listed.is_empty() {
+        listed = unread;
     }
     if listed.iter().any(|t| t.robot.is_ok()) || printed.is_empty() { listed } else { printed }
 }

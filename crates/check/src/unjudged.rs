@@ -346,13 +346,15 @@ fn is_row(shown: &str) -> bool {
         name.len() < 30 && name.ends_with(|c: char| c.is_ascii_digit()) && !name.contains(['(', '"', ',']);
     let is_part = |c: char| c.is_alphanumeric() || " +-−*/^().,;_·".contains(c);
     let parts: Vec<&str> = entries.split([',', ';']).collect();
-    // Words of prose have more letters.
+    // Words of prose have more letters, or no numbers.
     let words = entries.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     let is_short = |w: &str| w.chars().count() <= 4;
+    let is_numbered =
+        |w: &str| w.starts_with(char::is_alphabetic) && w.ends_with(|c: char| c.is_ascii_digit());
     is_name
         && parts.len() > 1
         && entries.chars().all(is_part)
-        && words.clone().count() > 2
+        && words.clone().filter(|w| is_numbered(w)).count() > 1
         && words.clone().all(is_short)
 }
 

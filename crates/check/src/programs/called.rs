@@ -14,7 +14,7 @@ use denavit::forward::Reference;
 use denavit_reading::code::{Assigned, Cell, Reading, Value};
 use denavit_reading::slip::Points;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Rational, Symbol, equal};
+use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
 use std::ops::Range;
 
 impl Program<'_> {
@@ -61,6 +61,32 @@ impl Program<'_> {
         let ((matrix, about), agreement) = recognised::nearest_with(self.subject, &Matrix(values), &given)?;
         let is_axis = matches!(about, Meaning::Axis(..));
         (agreement.is_whole && agreement.telling > 1 && is_axis).then_some((matrix, about))
+    }
+
+    /// Scalars that stand as they are in a matrix that is judged, `p = [x4; y4; z4]`: each is that entry.
+    pub(super) fn entries(&self, function: &Reading, judged: &[Assertion]) -> Vec<Assertion> {
+        let mut found: Vec<Assertion> = vec![];
+        let touches = |all: &[Assertion], span: &Range<usize>| {
+            all.iter().any(|x| x.span.start < span.end && span.start < x.span.end)
+        };
+        let matrices = judged.iter().filter(|a| matches!(a.about, About::Matrix(_)) && a.pieces.len() > 1);
+        for piece in matrices.flat_map(|a| &a.pieces) {
+            let Piece::Pair(pair) = piece else { continue };
+            let name = self.text.get(pair.span.clone()).unwrap_or_default().trim();
+            let of = |a: &&Assigned| a.name == name && a.span.end <= pair.span.start;
+            let Some(a) = function.assigned.iter().rev().find(of) else { continue };
+            let Value::Scalar(cell) = &a.value else { continue };
+            let source = self.text.get(a.span.clone()).unwrap_or_default();
+            // `c12 = cos(q1 + q2)` is an abbreviation.
+            let is_plain = matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_));
+            let is_formula =
+                source.contains(['+', '-', '*', '/']) && !is_plain && in_radians(cell.value) == pair.value;
+            if is_formula && !touches(judged, &a.span) && !touches(&found, &a.span) {
+                let pieces = vec![self.piece(None, cell, pair.wanted)];
+                found.push(self.assertion(&a.name, About::Entry, &a.span, pieces, None));
+            }
+        }
+        found
     }
 
     /// The Jacobian of the joints that a function takes, or of the first ones if it is that for the greater part.

@@ -152,6 +152,8 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             };
             found.assertions.extend(program.assigned(function).into_iter().map(of_others));
             found.assertions.extend(program.returned(function).into_iter().map(of_others));
+            let entries = program.entries(function, &found.assertions[count..]);
+            found.assertions.extend(entries.into_iter().map(of_others));
             let judged = found.assertions[count..].to_vec();
             found.assertions.extend(program.recognised(function, &judged));
             if found.assertions.len() == count && !function.returned.is_empty() {

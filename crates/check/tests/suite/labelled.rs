@@ -28,7 +28,7 @@ fn checked(label: &Value) -> Result<Checked, String> {
         Some("tex") => (Format::Latex, None),
         Some("py") => (Format::Markdown, Some(Dialect::Python)),
         Some("m") => (Format::Markdown, Some(Dialect::Matlab)),
-        Some("c") => (Format::Markdown, Some(Dialect::C)),
+        Some("c" | "cpp" | "ino") => (Format::Markdown, Some(Dialect::C)),
         _ => (Format::Markdown, None),
     };
     let options = CheckOptions { language, ..CheckOptions::default() };

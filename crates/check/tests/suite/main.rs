@@ -5,6 +5,7 @@ mod configurations;
 mod documents;
 mod dynamics;
 mod dynamics_meant;
+mod functions;
 mod given;
 mod hostile;
 mod inverse;
