@@ -111,20 +111,20 @@ fn part(number: usize, least: usize) {
 
 #[test]
 fn labelled_first() {
-    part(0, 226);
+    part(0, 279);
 }
 
 #[test]
 fn labelled_second() {
-    part(1, 217);
+    part(1, 297);
 }
 
 #[test]
 fn labelled_third() {
-    part(2, 245);
+    part(2, 312);
 }
 
 #[test]
 fn labelled_fourth() {
-    part(3, 217);
+    part(3, 323);
 }
