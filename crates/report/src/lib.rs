@@ -20,6 +20,8 @@ pub mod words;
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
-pub use exercise::{Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise};
+pub use exercise::{
+    ArmOptions, Difficulty, Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise, exercise_of_arm,
+};
 pub use sections::{Errata, ReportOptions, Topic, report, reports};
 pub use words::ExerciseKind;

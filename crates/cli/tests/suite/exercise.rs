@@ -76,3 +76,27 @@ fn what_there_is_not_is_said() {
     assert_eq!(run(&["exercise", "ur5", "--kind", "fk", "-o", "sheet.docx"]).0, 2);
     assert_eq!(run(&["exercise", "cartesian-ppp", "--kind", "singularities"]).0, 4);
 }
+
+/// A class: a folder for each student, no two sheets alike, each marked by its own task; a wrong value is named.
+#[test]
+fn a_series_has_a_folder_for_each() {
+    let folder = folder("series");
+    fs::create_dir_all(&folder).expect("a folder");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    fs::write(at("class.csv"), "Anna,7\nBen,8\n").expect("a file");
+    let arguments = ["exercise", "--kind", "path", "--difficulty", "easy", "--seed", "3", "--students"];
+    let made = run(&[&arguments[..], &[&at("class.csv"), "--task", &at("task")]].concat());
+    assert_eq!(made.0, 0, "{}", made.2);
+    let read = |name: &str| fs::read_to_string(at(name)).expect("a file");
+    assert!(read("task/series.csv").starts_with("name,seed,robot\nAnna,3,"));
+    let sheet = |name: &str| read(name).lines().skip(4).map(String::from).collect::<Vec<_>>();
+    assert_ne!(sheet("task/Anna/exercise.md"), sheet("task/Ben/exercise.md"));
+    let (code, sheet, said) = run(&["check", &at("task/Ben/task.toml"), &at("task/Ben/solution.md")]);
+    assert_eq!(code, 0, "{sheet}{said}");
+    let wrong = read("task/Ben/solution.md").replacen("$T = ", "$T = -", 1);
+    fs::write(at("answer.md"), wrong).expect("an answer");
+    let (code, sheet, _) = run(&["check", &at("task/Ben/task.toml"), &at("answer.md")]);
+    assert!(code == 1 && sheet.contains("T: a sign, right is "), "{sheet}");
+    fs::remove_dir_all(&folder).expect("it is there");
+    assert_eq!(run(&["exercise", "--kind", "fk", "--series", "2"]).0, 2);
+}

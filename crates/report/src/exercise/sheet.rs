@@ -7,6 +7,7 @@ use crate::sections::{self, Setting};
 use crate::words::{Caption, ExerciseKind, Heading, Wording};
 use crate::{ReportOptions, decimals};
 use denavit::description::{Description, JointKind, Variable};
+use denavit_check::Answer;
 use denavit_check::marking::{Item, Rubric};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
@@ -30,6 +31,8 @@ pub(super) struct Task {
     pub claims: Vec<String>,
     /// How many formulas the answer has.
     pub formulas: usize,
+    /// Values that it asks for, which say nothing of the robot by themselves.
+    pub answers: Vec<Answer>,
     pub answer: Vec<Section>,
 }
 
@@ -105,6 +108,7 @@ impl<'a> Ground<'a> {
             points: f64::from(t.points),
             whole: false,
             formulas: t.formulas,
+            answers: t.answers.clone(),
         });
         let title = words.exercise_title(kind, name);
         let rubric =

@@ -11,6 +11,7 @@ use denavit::forward::{Proof as Forward, Reference};
 use denavit::inverse::JointSpace;
 use denavit::robot::Robot;
 use denavit::velocity::{JacobianModel, ROWS, Viewpoint, geometric};
+use denavit_check::Answer;
 use denavit_symbolic::{Angle, Expr};
 
 /// The matrix as a formula and in numbers.
@@ -61,6 +62,7 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         points: 6,
         claims: ["J", "J0", "0J", "Jv", "Jw", "j*"].map(String::from).to_vec(),
         formulas: counted(rows.iter().flatten()) + entries,
+        answers: vec![],
         answer: vec![answer, in_numbers],
     }];
     let mut section = Section::new(ground.names());
@@ -97,10 +99,16 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
     let mut section = Section::new(names.clone());
     section.paragraph(ground.configuration(q));
     section.paragraph(line.clone());
-    let mut formulas = 0;
+    let mut answers = vec![];
     for (name, x) in ROWS.iter().zip(twist).take(3).filter(|(_, x)| x.abs() > 1e-9) {
-        // What is the velocity of a joint says nothing that is not given.
-        formulas += usize::from(rates.iter().all(|rate| (x.abs() - rate.abs()).abs() > 1e-9));
+        let axis = name.trim_start_matches('v');
+        let called = ["v", "V", "dot", "dotp", "dp", "d"].map(|l| format!("{l}{axis}"));
+        let behind = [format!("{axis}dot"), format!("{axis}p")];
+        answers.push(Answer {
+            names: called.into_iter().chain(behind).collect(),
+            value: digits(x, 4),
+            unit: "m/s".into(),
+        });
         section.paragraph(Line::default().math(quantity(Expr::symbol(name), x, 4, "m/s")));
     }
     let mut given = Section::new(names);
@@ -109,8 +117,9 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
         name: words.velocity_title(),
         words: Line::new(words.ask_velocity()),
         points: 2,
-        claims: ["v*", "x*", "y*", "z*"].map(String::from).to_vec(),
-        formulas,
+        claims: vec![],
+        formulas: 0,
+        answers,
         answer: vec![section],
     };
     (given, task)
@@ -153,6 +162,7 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
             points: 4,
             claims: ["det J", "det*", "D"].map(String::from).to_vec(),
             formulas: 1,
+            answers: vec![],
             answer: vec![answer],
         });
     }
@@ -180,6 +190,7 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
         points: 4,
         claims: ground.joints(),
         formulas,
+        answers: vec![],
         answer: vec![answer],
     });
     Ok(Asked { given, tasks })
