@@ -22,6 +22,7 @@ pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
 pub use exercise::{
     ArmOptions, Difficulty, Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise, exercise_of_arm,
+    moodle, notebook, prairielearn,
 };
 pub use sections::{Errata, ReportOptions, Topic, report, reports};
 pub use words::ExerciseKind;

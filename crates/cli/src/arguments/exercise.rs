@@ -24,11 +24,11 @@ pub struct ExerciseArguments {
     /// Of an arm that is made up: two joints, three, or three with offsets and more
     #[arg(long, value_enum, default_value = "medium")]
     pub difficulty: DifficultyName,
-    /// Make N exercises, a folder each below --task: 01, 02, …; arms that are made up have the same joints and other lengths
-    #[arg(long, value_name = "N", requires = "task")]
+    /// Make N exercises, a folder each below --task or -o: 01, 02, …; arms that are made up have the same joints and other lengths
+    #[arg(long, value_name = "N")]
     pub series: Option<usize>,
     /// Make an exercise for each line of this file, a folder of its name each
-    #[arg(long, value_name = "FILE", requires = "task", conflicts_with = "series")]
+    #[arg(long, value_name = "FILE", conflicts_with = "series")]
     pub students: Option<PathBuf>,
     /// How many configurations or poses it has
     #[arg(long, default_value_t = 1)]
@@ -42,7 +42,7 @@ pub struct ExerciseArguments {
     /// The language of the words
     #[arg(long, value_enum, default_value = "en")]
     pub language: ReportLanguage,
-    /// The file; its ending says the format: .md, .tex, .typ or .json. Of Markdown the drawing is written beside it
+    /// The file; its ending says the format: .md, .tex, .typ, .json, .xml (Moodle) or .ipynb (Jupyter). Of Markdown the drawing is written beside it
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write a folder with everything: exercise.md, solution.md, robot.toml and task.toml, by which `denavit check DIR/task.toml
@@ -125,4 +125,10 @@ pub enum ExerciseFormat {
     Typst,
     /// JSON with both sheets as Markdown, the robot and the points
     Json,
+    /// Moodle XML: gaps for numbers, an essay with its solution for formulas; of a series all in one file
+    Moodle,
+    /// A folder with a question of PrairieLearn; -o names it
+    Prairielearn,
+    /// A notebook for Jupyter, the source of an assignment for nbgrader
+    Jupyter,
 }

@@ -7,7 +7,10 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::note;
 use denavit::description::{Description, write_toml};
-use denavit_report::{ArmOptions, Exercise, ExerciseOptions, NoExercise, exercise, exercise_of_arm, render};
+use denavit_report::{
+    ArmOptions, Exercise, ExerciseOptions, NoExercise, exercise, exercise_of_arm, moodle, notebook,
+    prairielearn, render,
+};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -22,8 +25,53 @@ pub fn run(arguments: &ExerciseArguments) -> Result<(), Failure> {
     match (&arguments.task, names(arguments)?) {
         (Some(folder), Some(names)) => series(arguments, make, &names, folder),
         (Some(folder), None) => task(&make(arguments.seed)?, folder),
-        (None, _) => sheet(&make(arguments.seed)?, arguments),
+        (None, None) => sheet(&make(arguments.seed)?, arguments),
+        (None, Some(names)) => exported(arguments, make, &names),
     }
+}
+
+/// A series for another system.
+fn exported(
+    arguments: &ExerciseArguments,
+    make: impl Fn(u64) -> Result<Exercise, Failure>,
+    names: &[String],
+) -> Result<(), Failure> {
+    let stdout = Path::new("-");
+    let to = arguments.output.as_deref().unwrap_or(stdout);
+    let format = format(arguments)?;
+    let all = others(arguments.seed, make, names.len())?;
+    match format {
+        ExerciseFormat::Moodle => put(to, moodle(&all).as_bytes()),
+        ExerciseFormat::Prairielearn => all
+            .iter()
+            .zip(names)
+            .try_for_each(|(e, name)| files(&prairielearn(e), &folder(arguments)?.join(name))),
+        ExerciseFormat::Jupyter => all
+            .iter()
+            .zip(names)
+            .try_for_each(|(e, name)| files(&[(format!("{name}.ipynb"), notebook(e))], folder(arguments)?)),
+        _ => Err(Failure::Usage(
+            "--series and --students need --task DIR, or --format moodle, prairielearn or jupyter".into(),
+        )),
+    }
+}
+
+/// The folder that -o names.
+fn folder(arguments: &ExerciseArguments) -> Result<&Path, Failure> {
+    let named = arguments.output.as_deref().filter(|o| *o != Path::new("-"));
+    named.ok_or_else(|| Failure::Usage("-o names the folder".into()))
+}
+
+/// Files of a folder by their names in it.
+fn files(all: &[(String, String)], folder: &Path) -> Result<(), Failure> {
+    for (name, text) in all {
+        let path = folder.join(name);
+        let parent = path.parent().unwrap_or(folder);
+        fs::create_dir_all(parent)
+            .map_err(|e| Failure::Input(format!("error: {}: {e}", parent.display())))?;
+        put(&path, text.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// The exercise with this seed, about the robot or an arm that is made up.
@@ -87,9 +135,22 @@ fn series(
     names: &[String],
     folder: &Path,
 ) -> Result<(), Failure> {
-    let (mut seen, mut table) = (BTreeSet::new(), String::from("name,seed,robot\n"));
-    let mut seed = arguments.seed;
-    for name in names {
+    let mut table = String::from("name,seed,robot\n");
+    for (name, made) in names.iter().zip(others(arguments.seed, make, names.len())?) {
+        task(&made, &folder.join(name))?;
+        table += &format!("{name},{},{}\n", made.options.seed, made.robot.name);
+    }
+    put(&folder.join("series.csv"), table.as_bytes())
+}
+
+/// So many exercises from a seed on, no two alike.
+fn others(
+    first: u64,
+    make: impl Fn(u64) -> Result<Exercise, Failure>,
+    count: usize,
+) -> Result<Vec<Exercise>, Failure> {
+    let (mut seen, mut all, mut seed) = (BTreeSet::new(), vec![], first);
+    for _ in 0..count {
         let mut made = make(seed)?;
         for _ in 0..OTHERS {
             seed = seed.wrapping_add(1);
@@ -100,10 +161,9 @@ fn series(
             }
             made = make(seed)?;
         }
-        task(&made, &folder.join(name))?;
-        table += &format!("{name},{},{}\n", made.options.seed, made.robot.name);
+        all.push(made);
     }
-    put(&folder.join("series.csv"), table.as_bytes())
+    Ok(all)
 }
 
 /// One sheet to a file or to standard output.
@@ -120,6 +180,9 @@ fn sheet(made: &Exercise, arguments: &ExerciseArguments) -> Result<(), Failure> 
         }
         ExerciseFormat::Latex => render::latex(document),
         ExerciseFormat::Typst => render::typst(document),
+        ExerciseFormat::Moodle => moodle(std::slice::from_ref(made)),
+        ExerciseFormat::Jupyter => notebook(made),
+        ExerciseFormat::Prairielearn => return files(&prairielearn(made), folder(arguments)?),
         ExerciseFormat::Json => {
             let wire = denavit_wire::exercise::Exercise::of(made, arguments.solution);
             format!("{}\n", denavit_wire::text(&wire))
@@ -138,8 +201,10 @@ fn format(arguments: &ExerciseArguments) -> Result<ExerciseFormat, Failure> {
         (None, Some("tex")) => Ok(ExerciseFormat::Latex),
         (None, Some("typ")) => Ok(ExerciseFormat::Typst),
         (None, Some("json")) => Ok(ExerciseFormat::Json),
+        (None, Some("xml")) => Ok(ExerciseFormat::Moodle),
+        (None, Some("ipynb")) => Ok(ExerciseFormat::Jupyter),
         (None, Some(other)) => Err(Failure::Usage(format!(
-            "-o: the ending .{other} says no format; .md, .tex, .typ and .json do, or --format"
+            "-o: the ending .{other} says no format; .md, .tex, .typ, .json, .xml and .ipynb do, or --format"
         ))),
     }
 }

@@ -100,3 +100,54 @@ fn a_series_has_a_folder_for_each() {
     fs::remove_dir_all(&folder).expect("it is there");
     assert_eq!(run(&["exercise", "--kind", "fk", "--series", "2"]).0, 2);
 }
+
+/// The same numbers are asked for in Moodle, PrairieLearn and a notebook, and they are those of the solution.
+#[test]
+fn exercises_for_other_systems() {
+    let folder = folder("systems");
+    fs::create_dir_all(&folder).expect("a folder");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let read = |name: &str| fs::read_to_string(at(name)).expect("a file");
+    for (kind, numbers) in
+        [("fk", 4), ("ik", 4), ("jacobian", 7), ("transforms", 12), ("statics", 3), ("path", 16), ("dh", 0)]
+    {
+        let made = |more: &[&str]| {
+            let (code, out, said) = run(&[&["exercise", "--kind", kind, "--seed", "4"], more].concat());
+            assert_eq!(code, 0, "{kind}: {said}");
+            out
+        };
+        made(&["-o", &at("x.xml")]);
+        made(&["-o", &at("x.ipynb")]);
+        made(&["--format", "prairielearn", "-o", &at(kind)]);
+        let moodle = read("x.xml");
+        assert_eq!(denavit::description::root_element(&moodle).as_deref(), Some("quiz"));
+        assert_eq!(moodle.matches(":NUMERICAL:=").count(), numbers, "{kind}");
+        assert_eq!(moodle.matches("<question type=\"essay\">").count() == 0, kind == "path");
+        let notebook: serde_json::Value = serde_json::from_str(&read("x.ipynb")).expect("it is JSON");
+        let cells = notebook["cells"].as_array().expect("cells");
+        let sources: String = cells.iter().filter_map(|c| c["source"].as_str()).collect();
+        assert_eq!(sources.matches("assert abs(").count(), numbers, "{kind}");
+        assert!(cells.iter().any(|c| c["metadata"]["nbgrader"]["points"].as_f64() > Some(0.0)));
+        let info = fs::read_to_string(folder.join(kind).join("info.json")).expect("a file");
+        let info: serde_json::Value = serde_json::from_str(&info).expect("it is JSON");
+        assert_eq!(info["uuid"].as_str().map(str::len), Some(36));
+        let page = fs::read_to_string(folder.join(kind).join("question.html")).expect("a file");
+        let values: Vec<&str> =
+            page.split("correct-answer=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert_eq!(values.len(), numbers, "{kind}");
+        // Mustache has these for itself.
+        assert!(!page.contains("{{"), "{kind}");
+        if kind == "statics" {
+            let solution = made(&["--solution"]);
+            assert!(
+                values.iter().all(|value| solution.contains(&format!("= {value} "))),
+                "{values:?}{solution}"
+            );
+        }
+    }
+    // A class in one file: as many questions with gaps as students.
+    let made = run(&["exercise", "--kind", "statics", "--series", "3", "-o", &at("pool.xml")]);
+    assert_eq!(made.0, 0, "{}", made.2);
+    assert_eq!(read("pool.xml").matches("type=\"cloze\"").count(), 3);
+    fs::remove_dir_all(&folder).expect("it is there");
+}

@@ -2,7 +2,7 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, claimed, counted};
+use super::sheet::{Asked, Field, Ground, Task, claimed, counted};
 use crate::derivation::{Derivation, matrix, transforms};
 use crate::document::{Block, Factor, Line, Math, Part, Section, Table};
 use crate::render::{named, too_long};
@@ -57,12 +57,14 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     };
 
     let mut in_numbers = Section::new(names);
-    let mut entries_in_numbers = 0;
+    let (mut entries_in_numbers, mut fields) = (0, vec![]);
     for (k, q) in all.iter().enumerate() {
         let pose = robot.pose(q);
         in_numbers.heading(3, Line::new(words.configuration_title(k + 1)));
         in_numbers.paragraph(ground.configuration(q));
         let shown = numbers(&pose);
+        let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+        fields.extend(Field::entries(&title, &shown, &ground.names()));
         if let Math::Numbers(_, rows) = &shown {
             let counts = |x: &&String| !matches!(x.as_str(), "0" | "1");
             entries_in_numbers += rows.iter().flatten().filter(counts).count().max(1);
@@ -80,6 +82,8 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 claims: link_claims,
                 formulas: if n > 1 { link_entries } else { 0 },
                 answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![links],
             },
             Task {
@@ -89,6 +93,8 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 claims: forward_claims,
                 formulas,
                 answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![forward],
             },
             Task {
@@ -98,6 +104,8 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 claims: ["T", "P", "x", "y", "z"].map(String::from).to_vec(),
                 formulas: entries_in_numbers,
                 answers: vec![],
+                fields,
+                has_formulas: false,
                 answer: vec![in_numbers],
             },
         ],
@@ -126,6 +134,7 @@ pub(super) fn links(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     let n = model.links.len();
     let mut answer = Section::new(names.clone());
     answer.push(transforms(&model.links));
+    let mut fields = vec![];
     let mut formulas: usize = model.links.iter().map(|l| counted(l[..3].iter().flatten())).sum();
     for (k, q) in all.iter().enumerate() {
         answer.heading(3, Line::new(words.configuration_title(k + 1)));
@@ -134,7 +143,10 @@ pub(super) fn links(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             let Math::Numbers(_, rows) = numbers(&row.transform(q)) else { continue };
             let counts = |x: &&String| !matches!(x.as_str(), "0" | "1");
             formulas += rows.iter().flatten().filter(counts).count().max(1);
-            answer.formula(Math::Numbers(link(j), rows));
+            let shown = Math::Numbers(link(j), rows);
+            let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+            fields.extend(Field::entries(&title, &shown, &names));
+            answer.formula(shown);
         }
     }
     Ok(Asked {
@@ -146,6 +158,8 @@ pub(super) fn links(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             claims: of_links(n, &names),
             formulas,
             answers: vec![],
+            fields,
+            has_formulas: true,
             answer: vec![answer],
         }],
     })
@@ -217,6 +231,8 @@ pub(super) fn table(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             claims: vec!["table".into(), "table*".into()],
             formulas: 1,
             answers: vec![],
+            fields: vec![],
+            has_formulas: true,
             answer: vec![answer],
         }],
     })

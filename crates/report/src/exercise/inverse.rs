@@ -2,15 +2,18 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, quantity};
+use super::sheet::{Asked, Field, Ground, Task, claimed, quantity};
 use crate::document::{Block, Line, Math, Proof, Section, Sign};
 use crate::explain::{Explained, Explanation, Kind, Statement, uses_letters};
 use crate::render::too_long;
 use crate::sections::{numbers, within_turns};
+use crate::words::ExerciseKind;
+use denavit::description::JointKind;
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::inverse::{Goal, InverseKinematics, InverseModel, InverseOptions, Solution};
 use denavit_symbolic::readable::settled;
 use denavit_symbolic::{Expr, Symbol};
+use std::cmp::Ordering;
 
 /// A pose with more configurations is not asked for.
 const MOST: usize = 16;
@@ -91,6 +94,7 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
         in_numbers.paragraph(Line::new(words.found(count, families, true)));
     }
     answers.push(in_numbers);
+    let fields = fields(ground, &found);
     let joints: usize = found.iter().map(|one| one.solutions.len()).sum::<usize>() * all[0].len();
     Ok(Asked {
         given: vec![given],
@@ -104,9 +108,44 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
             claims: ground.joints(),
             formulas: joints,
             answers: vec![],
+            fields,
+            has_formulas: true,
             answer: answers,
         }],
     })
+}
+
+/// How many configurations there are, and the joints of that with the largest first joint, of several such the largest second.
+fn fields(ground: &Ground, found: &[Solved]) -> Vec<Field> {
+    let words = ground.words();
+    let is_pose = ground.options.kind == ExerciseKind::Inverse;
+    let mut fields = vec![];
+    for (k, one) in found.iter().enumerate() {
+        let (pose, position) = (words.given_pose_title(k + 1), words.given_position_title(k + 1));
+        let title = words.largest_of(if is_pose { &pose } else { &position });
+        let field = |label: String, value: f64, unit: &str| Field {
+            group: title.clone(),
+            label,
+            value,
+            unit: unit.into(),
+        };
+        fields.push(field("N".into(), one.solutions.len() as f64, ""));
+        // What is equal but for rounding is equal.
+        let rounded = |q: &[f64]| q.iter().map(|x| (x * 1e6).round()).collect::<Vec<f64>>();
+        let last = one
+            .solutions
+            .iter()
+            .map(|f| &f.q)
+            .max_by(|a, b| rounded(a).partial_cmp(&rounded(b)).unwrap_or(Ordering::Equal));
+        for (x, v) in last.into_iter().flatten().zip(ground.setting.description.variables()) {
+            let label = claimed(&Math::Expr(v.symbol.into()), &ground.names());
+            fields.push(match v.kind {
+                JointKind::Revolute => field(label, x.to_degrees(), "°"),
+                JointKind::Prismatic => field(label, *x, "m"),
+            });
+        }
+    }
+    fields
 }
 
 /// The closed form, where there is one that is proved: the equations of each step with their solution.

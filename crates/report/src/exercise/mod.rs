@@ -5,6 +5,7 @@
 
 mod arm;
 mod chosen;
+mod export;
 mod forward;
 mod inverse;
 mod motion;
@@ -14,6 +15,7 @@ mod statics;
 mod velocity;
 
 pub use arm::{ArmOptions, Difficulty, exercise_of_arm};
+pub use export::{moodle, notebook, prairielearn};
 
 use crate::document::Document;
 use crate::words::{ExerciseKind, Tongue};
@@ -23,7 +25,7 @@ use denavit::inverse::Unprepared;
 use denavit::robot::MissingValue;
 use denavit::velocity::Obstacle;
 use denavit_check::marking::Rubric;
-use sheet::Asked;
+use sheet::{Asked, Question};
 use std::fmt;
 
 /// The most configurations or poses of a sheet.
@@ -55,6 +57,8 @@ pub struct Exercise {
     pub solution: Document,
     /// The points, item by item.
     pub rubric: Rubric,
+    /// The tasks one by one, as other systems have them.
+    questions: Vec<Question>,
 }
 
 /// Why there is no such exercise.

@@ -150,6 +150,8 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                     .to_vec(),
                 formulas: counted(whole),
                 answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![of_parts],
             },
             Task {
@@ -159,6 +161,8 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                 claims: claims(d.variables().iter().map(|v| v.kind)),
                 formulas: joints,
                 answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![formulas],
             },
             Task {
@@ -168,6 +172,8 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                 claims: vec![],
                 formulas: 0,
                 answers,
+                fields: vec![],
+                has_formulas: false,
                 answer: vec![in_numbers],
             },
         ],

@@ -2,7 +2,7 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, digits, quantity};
+use super::sheet::{Asked, Field, Ground, Task, claimed, digits, quantity};
 use crate::document::{Line, Math, Section};
 use denavit::inverse::JointSpace;
 use denavit::robot::Robot;
@@ -86,6 +86,7 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
     let general = start + by * (Expr::int(3) * (t / whole).powi(2) - Expr::int(2) * (t / whole).powi(3));
     cubic.paragraph(words.cubic_step(Math::Expr(general)));
     peaks.paragraph(words.peaks_step(Math::Expr(Expr::int(3) * by / (Expr::int(2) * whole))));
+    let mut coefficients = vec![];
     let [mut polynomials, mut speeds, mut shortest] = [vec![], vec![], vec![]];
     for (j, way) in ways.iter().enumerate() {
         let f = Expr::int(seconds);
@@ -97,6 +98,12 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
         let k = j + 1;
         let letters =
             ["q", "theta", "th", "d", "r"].iter().flat_map(|l| [format!("{l}{k}"), format!("{l}{k}t")]);
+        for (power, c) in [(0, Expr::from(way.from.clone())), (2, two), (3, three)] {
+            let label = claimed(&Math::Expr(q[j]), &names);
+            let label = if power == 0 { label } else { format!("{label}:\\; t^{power}") };
+            let value = c.eval(|_| None).unwrap_or_default();
+            coefficients.push(Field { group: words.coefficients(), label, value, unit: String::new() });
+        }
         polynomials.push(Answer {
             names: letters.collect(),
             value: print(value, &Vocabulary::new(), Style::Ascii),
@@ -151,26 +158,36 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
     }
     let joints = ways.len() as u32;
     let letters = |letter: &str| (0..ways.len()).map(|j| Math::Expr(named(letter, j))).collect::<Vec<_>>();
-    let task = |name, words, points, answers, answer| Task {
+    let task = |name, words, points, answers, fields, answer| Task {
         name,
         words,
         points,
         claims: vec![],
         formulas: 0,
         answers,
+        fields,
+        has_formulas: false,
         answer: vec![answer],
     };
     let duration = quantity(Expr::symbol("f"), seconds as f64, 0, "s");
     Ok(Asked {
         given: vec![given],
         tasks: vec![
-            task(words.cubic_title(), words.ask_cubic(duration), 2 * joints, polynomials, cubic),
-            task(words.peaks_title(), words.ask_peaks(letters("v")), joints, speeds, peaks),
+            task(
+                words.cubic_title(),
+                words.ask_cubic(duration),
+                2 * joints,
+                polynomials,
+                coefficients,
+                cubic,
+            ),
+            task(words.peaks_title(), words.ask_peaks(letters("v")), joints, speeds, vec![], peaks),
             task(
                 words.trapezoid_title(),
                 words.ask_trapezoid(letters("T"), Math::Expr(Expr::symbol("T"))),
                 joints + 1,
                 shortest,
+                vec![],
                 times,
             ),
         ],

@@ -80,6 +80,8 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
                 // A torque that is 0 says nothing.
                 formulas: (0..joints).filter(|&j| !torque(j).is_zero()).count(),
                 answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![answer],
             },
             Task {
@@ -89,6 +91,8 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
                 claims: vec![],
                 formulas: 0,
                 answers,
+                fields: vec![],
+                has_formulas: false,
                 answer: vec![in_numbers],
             },
         ],

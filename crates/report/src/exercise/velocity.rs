@@ -2,7 +2,7 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, counted, digits, quantity};
+use super::sheet::{Asked, Field, Ground, Task, counted, digits, quantity};
 use crate::document::{Block, Factor, Line, Math, Proof, Section};
 use crate::explain::velocity_vocabulary;
 use crate::render::{named, too_long};
@@ -42,7 +42,7 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
     let in_base = Viewpoint::tool();
     let base = words.viewpoint(in_base.body, in_base.at, None, in_base.axes);
     let mut in_numbers = Section::new(names);
-    let mut entries = 0;
+    let (mut entries, mut fields) = (0, vec![]);
     for (k, q) in all.iter().enumerate() {
         let shown: Vec<Vec<String>> = geometric(&robot, q, &in_base)
             .rows()
@@ -54,7 +54,10 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         in_numbers.paragraph(ground.configuration(q));
         // What stands right before a matrix says where it holds.
         in_numbers.paragraph(base.clone());
-        in_numbers.formula(Math::Numbers(Factor::named("J"), shown));
+        let shown = Math::Numbers(Factor::named("J"), shown);
+        let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+        fields.extend(Field::entries(&title, &shown, &ground.names()));
+        in_numbers.formula(shown);
     }
     let mut tasks = vec![Task {
         name: words.jacobian_formula(),
@@ -63,6 +66,8 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         claims: ["J", "J0", "0J", "Jv", "Jw", "j*"].map(String::from).to_vec(),
         formulas: counted(rows.iter().flatten()) + entries,
         answers: vec![],
+        fields,
+        has_formulas: true,
         answer: vec![answer, in_numbers],
     }];
     let mut section = Section::new(ground.names());
@@ -120,6 +125,8 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
         claims: vec![],
         formulas: 0,
         answers,
+        fields: vec![],
+        has_formulas: false,
         answer: vec![section],
     };
     (given, task)
@@ -163,6 +170,8 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
             claims: ["det J", "det*", "D"].map(String::from).to_vec(),
             formulas: 1,
             answers: vec![],
+            fields: vec![],
+            has_formulas: true,
             answer: vec![answer],
         });
     }
@@ -191,6 +200,8 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
         claims: ground.joints(),
         formulas,
         answers: vec![],
+        fields: vec![],
+        has_formulas: true,
         answer: vec![answer],
     });
     Ok(Asked { given, tasks })

@@ -171,6 +171,12 @@ pub trait Exercise {
     /// That the arm is singular where something is so.
     fn singular_where(&self, condition: Math) -> Line;
 
+    /// The coefficients of polynomials, as a heading.
+    fn coefficients(&self) -> String;
+
+    /// Of a pose with this title: the number N of configurations, and that with the largest first joint.
+    fn largest_of(&self, title: &str) -> String;
+
     /// What an arm is called that is made up, by the letters of its joints.
     fn made_up_arm(&self, joints: &str, seed: u64) -> String;
 

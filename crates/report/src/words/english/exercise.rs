@@ -158,6 +158,16 @@ impl Exercise for English {
         Line::new("The arm is singular where ").math(condition).text(".")
     }
 
+    fn coefficients(&self) -> String {
+        "The coefficients of the powers of t".into()
+    }
+
+    fn largest_of(&self, title: &str) -> String {
+        format!(
+            "{title}: the number N of configurations, and that with the largest first joint (of several the largest second joint, and so on)"
+        )
+    }
+
     fn made_up_arm(&self, joints: &str, seed: u64) -> String {
         format!("{joints} arm {seed}")
     }

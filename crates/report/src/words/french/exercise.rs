@@ -161,6 +161,16 @@ impl Exercise for French {
         Line::new("Le bras est singulier où ").math(condition).text(".")
     }
 
+    fn coefficients(&self) -> String {
+        "Les coefficients des puissances de t".into()
+    }
+
+    fn largest_of(&self, title: &str) -> String {
+        format!(
+            "{title} : le nombre N de configurations, et celle dont la première articulation est la plus grande (à égalité la deuxième, et ainsi de suite)"
+        )
+    }
+
     fn made_up_arm(&self, joints: &str, seed: u64) -> String {
         format!("{joints} {seed}")
     }
