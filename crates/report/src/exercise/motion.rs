@@ -49,7 +49,7 @@ fn is_planar(d: &Description) -> bool {
     let walk = Walk::seen_from(&Robot::symbolic(d), &q, Reference::Base);
     let is_along = |v: [Expr; 3]| settled(v[0]).is_zero() && settled(v[1]).is_zero();
     d.variables().iter().all(|v| v.kind == JointKind::Revolute)
-        && walk.axes().into_iter().all(|axis| is_along(axis.direction.0))
+        && walk.axes().iter().all(|axis| is_along(axis.direction.0))
 }
 
 /// Inertia matrix, velocity torques, gravity, the torques as formulas and in numbers.

@@ -62,10 +62,10 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
         in_numbers.paragraph(Line::default().list(components()));
         let columns = geometric(&robot, q, &Viewpoint::tool());
         let rows = columns.rows();
-        for j in 0..joints {
+        for (j, &turns) in space.is_angle.iter().enumerate() {
             let value: f64 = felt.iter().zip(&force).map(|(&r, f)| rows[r][j] * f).sum();
-            in_numbers.paragraph(Line::default().math(quantity(name(j), value, 4, unit(space.is_angle[j]))));
-            answers.push(of_joint(j, value, space.is_angle[j]));
+            in_numbers.paragraph(Line::default().math(quantity(name(j), value, 4, unit(turns))));
+            answers.push(of_joint(j, value, turns));
         }
     }
     let letters = felt.iter().map(|&r| Math::Expr(Expr::symbol(FORCE[r]))).collect();
