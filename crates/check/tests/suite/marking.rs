@@ -1,7 +1,7 @@
 //! Points by a rubric.
 
 use denavit_check::marking::{Item, Mark, Rubric};
-use denavit_check::{Answer, CheckOptions, ValueSlip, check};
+use denavit_check::{Answer, CheckOptions, Standing, ValueSlip, check};
 use denavit_reading::document::Format;
 
 const TABLE: &str = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
@@ -118,4 +118,17 @@ fn values_are_marked_in_any_form() {
     }
     assert_eq!(way("$q_1(t) = a_0 + a_2 t^2$"), None);
     assert_eq!(way("$q_1(t) = 30$"), None);
+}
+
+/// The frame of a slide with the other sign is that of the base seen from it, which its name does not say.
+#[test]
+fn a_slide_with_the_other_sign_is_wrong() {
+    let table = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | 0 | d1 | 0 | 0 |\n\
+                 | 2 | θ2 | 0 | a2 | 0 |\n\n";
+    let standing = |sign: &str| {
+        let text = format!("{table}A_1 = [1, 0, 0, 0; 0, 1, 0, 0; 0, 0, 1, {sign}d1; 0, 0, 0, 1]");
+        let checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
+        checked.claims[0].standing()
+    };
+    assert_eq!([standing(""), standing("-")], [Standing::Equal, Standing::Wrong]);
 }
