@@ -129,8 +129,12 @@ pub(super) fn with_locked_joints(text: &str, pair: &Pair, subject: &Subject) -> 
     })
 }
 
-/// Coordinates of the base as the hand sees it, where they are called x, y, z: the last column of the inverse.
+/// Coordinates of the base as the hand sees it, where they are called x, y, z: the last column of the inverse. An entry of a
+/// matrix is no coordinate: of a lone slide the inverse differs by its sign alone.
 pub(super) fn of_inverse(pair: &Pair, subject: &Subject) -> Option<Pair> {
+    if pair.place.is_some() {
+        return None;
+    }
     let pose = subject.pose();
     let axis = pose.translation.0.iter().position(|e| *e == pair.wanted)?;
     let wanted = pose.inverse().translation.0[axis];

@@ -5,6 +5,7 @@
 //! (`judge`). For what is wrong, the smallest change that mends it is looked for, first of the robot's table (`causes`),
 //! then of the formula (`denavit_reading::slip`).
 
+mod answers;
 mod apart;
 mod blamed;
 mod carried;
@@ -67,6 +68,7 @@ mod walk;
 mod weights;
 mod whole;
 
+pub use answers::{Answer, Answered, ValueSlip};
 pub use facts::{
     About, Change, Condition, Dynamic, Instead, Jacobian, Meaning, Placement, ReadWith, Remark, Sense,
     ShortRow, SlipKind, Spoken, TableCell, Unproved, Whereabouts, Zeros,
@@ -248,6 +250,7 @@ pub fn check(
         unjudged,
         notes: notes.sorted(),
         robots: plan.subjects.iter().map(|s| s.description.clone()).collect(),
+        answered: vec![],
     };
     checked.sort();
     Ok(checked)

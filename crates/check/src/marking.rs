@@ -1,6 +1,8 @@
 //! Points for what a document shows, by a teacher's rubric: what was not judged is not wrong, it is marked by hand.
 
+use super::answers::{self, Answer, ValueSlip};
 use super::outcome::{Checked, Claim, Entry, Standing};
+use denavit_reading::document::Format;
 use denavit_symbolic::greek;
 use std::ops::Range;
 
@@ -30,6 +32,8 @@ pub struct Item {
     pub whole: bool,
     /// How many formulas a full answer has: those that are missing earn nothing. 0 where that is not known.
     pub formulas: usize,
+    /// Values that it asks for, each a formula of a full answer.
+    pub answers: Vec<Answer>,
 }
 
 /// What a document earns, item by item.
@@ -50,6 +54,8 @@ pub struct Mark {
     pub right: [usize; 2],
     /// Claims that are not proved right, with what they are.
     pub others: Vec<(String, Standing)>,
+    /// Values that are wrong, with their slips and what is right.
+    pub slips: Vec<(String, ValueSlip, String)>,
     /// What is to be marked by hand.
     pub by_hand: Vec<Range<usize>>,
 }
@@ -72,14 +78,22 @@ impl Rubric {
         self.items.iter().map(|i| i.points).sum()
     }
 
-    /// What a document earns; `text` is the document.
-    pub fn mark(&self, text: &str, checked: &Checked) -> Sheet {
-        Sheet { marks: self.items.iter().map(|item| self.mark_item(item, text, checked)).collect() }
+    /// Holds a document against the values that the items ask for; what it says of them is judged by that alone.
+    pub fn answer(&self, text: &str, format: Format, checked: &mut Checked) {
+        answers::answer(self, text, format, checked);
     }
 
-    fn mark_item(&self, item: &Item, text: &str, checked: &Checked) -> Mark {
+    /// What a document earns; `text` is the document. Where items ask for values, [`answer`](Self::answer) goes before.
+    pub fn mark(&self, text: &str, checked: &Checked) -> Sheet {
+        let all = self.items.iter().enumerate();
+        Sheet { marks: all.map(|(k, item)| self.mark_item(k, item, text, checked)).collect() }
+    }
+
+    fn mark_item(&self, at: usize, item: &Item, text: &str, checked: &Checked) -> Mark {
         let mut mark = Mark::default();
         let patterns: Vec<String> = item.claims.iter().map(|c| plain(c)).collect();
+        let values = item.answers.iter().flat_map(|a| &a.names).map(|name| plain(name));
+        let lines: Vec<String> = patterns.iter().cloned().chain(values).collect();
         let is_meant = |name: &str| patterns.iter().any(|pattern| fits(pattern, &plain(name)));
         let mut shares: Vec<Option<f64>> = vec![];
         for claim in checked.claims.iter().filter(|c| is_meant(&c.name)) {
@@ -95,24 +109,36 @@ impl Rubric {
                 mark.others.push((claim.name.clone(), claim.standing()));
             }
         }
+        for answered in checked.answered.iter().filter(|a| a.of[0] == at) {
+            shares.push(Some(if answered.slip.is_none() { 1.0 } else { 0.0 }));
+            mark.right[0] += usize::from(answered.slip.is_none());
+            if let Some(slip) = answered.slip {
+                mark.others.push((answered.name.clone(), Standing::Wrong));
+                mark.slips.push((answered.name.clone(), slip, answered.right.clone()));
+            }
+        }
         // A line that was passed over and names what is asked for.
         for line in &checked.unjudged {
             let source = text.get(line.span.clone()).unwrap_or_default();
             let left = source.split_once('=').map_or(source, |sides| sides.0).trim();
-            if is_meant(left) {
+            if lines.iter().any(|pattern| fits(pattern, &plain(left))) {
                 mark.by_hand.push(line.span.clone());
                 mark.others.push((left.to_string(), Standing::Undecided));
                 shares.push(None);
             }
         }
         mark.right[1] = shares.len();
-        let count = shares.len().max(item.formulas).max(1) as f64;
+        let count = shares.len().max(item.formulas + item.answers.len()).max(1) as f64;
         // A sum of nothing is -0.
         let certain = 0.0 + shares.iter().flatten().sum::<f64>();
         let open = shares.iter().filter(|s| s.is_none()).count() as f64;
         let [certain, open] = match item.whole {
             false => [certain, open],
-            true if shares.len() < item.formulas || shares.iter().flatten().any(|s| *s < 1.0) => [0.0, 0.0],
+            true if shares.len() < item.formulas + item.answers.len()
+                || shares.iter().flatten().any(|s| *s < 1.0) =>
+            {
+                [0.0, 0.0]
+            }
             true if open > 0.0 => [0.0, count],
             true => [certain, 0.0],
         };
@@ -144,13 +170,13 @@ fn counted<'a>(text: &str, claim: &'a Claim) -> Vec<&'a Entry> {
 }
 
 /// Letters and digits alone, Greek letters by their names.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     let kept = name.chars().filter(|c| c.is_alphanumeric() || *c == '*');
     kept.map(|c| greek::name(c).map_or(c.to_string(), str::to_string)).collect()
 }
 
 /// Whether a name fits a pattern in which `*` stands for any letters.
-fn fits(pattern: &str, name: &str) -> bool {
+pub(super) fn fits(pattern: &str, name: &str) -> bool {
     let parts: Vec<&str> = pattern.split('*').collect();
     let (Some(first), Some(last)) = (parts.first(), parts.last()) else { return false };
     if parts.len() == 1 {

@@ -1,5 +1,6 @@
 //! What is said of a document.
 
+use super::answers::Answered;
 use super::facts::{About, Change, Condition, Instead, Remark, SlipKind, Unproved};
 use super::formula::Formula;
 use super::note::{Note, Unread, Unreadable};
@@ -20,6 +21,8 @@ pub struct Checked {
     pub notes: Vec<Note>,
     /// The robots that the claims are about.
     pub robots: Vec<Description>,
+    /// What was held against the values that a rubric asks for ([`Rubric::answer`](super::marking::Rubric::answer)).
+    pub answered: Vec<Answered>,
 }
 
 /// How many claims there are of each kind.
@@ -94,6 +97,12 @@ impl Checked {
     /// The number of claims of each kind.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally { unjudged: self.unjudged.len(), ..Tally::default() };
+        for answered in &self.answered {
+            match answered.slip {
+                None => tally.equal += 1,
+                Some(_) => tally.wrong += 1,
+            }
+        }
         for claim in &self.claims {
             tally.proved += usize::from(claim.is_proved());
             match claim.standing() {

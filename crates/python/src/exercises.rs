@@ -3,7 +3,7 @@
 use crate::formulas::{judged_as, tongue};
 use crate::trouble::{Kind, Trouble};
 use denavit::description::Description;
-use denavit_reading::document::readable;
+use denavit_reading::document::{Format, readable};
 use denavit_report::{Exercise, ExerciseOptions, NoExercise, exercise, render};
 
 /// What a sheet is made from: its kind, seed, count and language.
@@ -58,7 +58,8 @@ pub fn marked(
 ) -> Result<(String, String), Trouble> {
     let made = made(d, request)?;
     let text = &readable(name, text.to_string());
-    let checked = judged_as(text, name, Some(&made.robot))?;
+    let mut checked = judged_as(text, name, Some(&made.robot))?;
+    made.rubric.answer(text, Format::of(name, text), &mut checked);
     let marked = denavit_wire::exercise::Marked::of(&made.rubric, &made.rubric.mark(text, &checked));
     Ok((
         denavit_wire::text(&denavit_wire::check::Checked::of(name, text, &checked)),

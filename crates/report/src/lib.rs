@@ -20,6 +20,9 @@ pub mod words;
 pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
-pub use exercise::{Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise};
+pub use exercise::{
+    ArmOptions, Difficulty, Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise, exercise_of_arm,
+    moodle, notebook, prairielearn,
+};
 pub use sections::{Errata, ReportOptions, Topic, report, reports};
 pub use words::ExerciseKind;

@@ -13,7 +13,7 @@ pub struct Exercise {
     pub count: usize,
     /// The points, item by item.
     pub items: Vec<Item>,
-    /// `fk`, `dh`, `ik`, `jacobian` or `singularities`.
+    /// `fk`, `dh`, `ik`, `jacobian`, `singularities`, `transforms`, `position`, `statics`, `torques` or `path`.
     pub kind: &'static str,
     /// The robot's name.
     pub robot: String,

@@ -178,7 +178,7 @@ class Marked:
 class Exercise:
     """A sheet of tasks about a robot, with its solution: see `Robot.exercise`."""
 
-    #: ``fk``, ``dh``, ``ik``, ``jacobian`` or ``singularities``.
+    #: ``fk``, ``dh``, ``ik``, ``jacobian``, ``singularities``, ``transforms``, ``position``, ``statics``, ``torques`` or ``path``.
     kind: str
     #: Which sheet of its kind.
     seed: int

@@ -33,7 +33,7 @@ impl Chosen {
     }
 
     /// A whole number between two, these included.
-    fn whole(&mut self, [low, high]: [i64; 2]) -> i64 {
+    pub(super) fn whole(&mut self, [low, high]: [i64; 2]) -> i64 {
         let count = (high - low + 1).max(1);
         low + ((self.random.unit() * count as f64) as i64).min(count - 1)
     }
@@ -55,6 +55,8 @@ impl Chosen {
                     Expr::from(Rational::new(steps, PARTS))
                 }
                 Measure::Angle => Expr::int(self.whole([1, 5]) * ANGLE) * Expr::pi() / Expr::int(180),
+                // Masses that an exercise gave its arm.
+                Measure::Other("kg") if p.symbol.name().starts_with('m') => Expr::int(self.whole([1, 5])),
                 Measure::Other(_) => continue,
             });
         }
@@ -136,6 +138,20 @@ impl Chosen {
             steps as f64 / if *is_angle { 10.0 } else { PARTS as f64 }
         };
         space.is_angle.iter().map(&mut rate).collect()
+    }
+
+    /// A component of a force, N, not 0.
+    pub(super) fn force(&mut self) -> f64 {
+        let size = 5 * self.whole([1, 10]);
+        (if self.random.unit() < 0.5 { -size } else { size }) as f64
+    }
+
+    /// The greatest speed and acceleration of a joint, in degrees or metres.
+    pub(super) fn limits(&mut self, is_angle: bool) -> [f64; 2] {
+        match is_angle {
+            true => [(self.whole([2, 8]) * 15) as f64, (self.whole([2, 8]) * 30) as f64],
+            false => [self.whole([2, 8]) as f64 / PARTS as f64, self.whole([4, 16]) as f64 / PARTS as f64],
+        }
     }
 
     /// Quarter turns and lengths, by which a drawing is easy to read; one entry a joint.

@@ -2,7 +2,7 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, claimed, counted};
+use super::sheet::{Asked, Field, Ground, Task, claimed, counted};
 use crate::derivation::{Derivation, matrix, transforms};
 use crate::document::{Block, Factor, Line, Math, Part, Section, Table};
 use crate::render::{named, too_long};
@@ -14,6 +14,7 @@ use denavit::inverse::JointSpace;
 use denavit::mechanism::{Robot, Walk};
 use denavit_symbolic::Expr;
 use denavit_symbolic::readable::settled;
+use denavit_symbolic::vocabulary::Vocabulary;
 
 /// Link transforms, the pose of the tool as a formula and in numbers.
 pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
@@ -27,14 +28,8 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     links.push(transforms(&model.links));
     let letters = ["A", "T", "H"];
     let n = model.links.len();
-    let of_links = |k: usize| {
-        let frame = claimed(&Math::Product(vec![link(k)]), &names);
-        let by_letter =
-            letters.iter().flat_map(move |l| [format!("{l}{k}{}", k + 1), format!("{k}{l}{}", k + 1)]);
-        [frame, format!("A{}", k + 1)].into_iter().chain(by_letter)
-    };
     // Of an arm with one row that is the pose itself.
-    let link_claims = (0..n).filter(|_| n > 1).flat_map(of_links).collect();
+    let link_claims = if n > 1 { of_links(n, &names) } else { vec![] };
 
     let [from, to] = model.frames();
     let frame = Factor::Frame { from: from.clone(), to: to.clone() };
@@ -62,12 +57,14 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     };
 
     let mut in_numbers = Section::new(names);
-    let mut entries_in_numbers = 0;
+    let (mut entries_in_numbers, mut fields) = (0, vec![]);
     for (k, q) in all.iter().enumerate() {
         let pose = robot.pose(q);
         in_numbers.heading(3, Line::new(words.configuration_title(k + 1)));
         in_numbers.paragraph(ground.configuration(q));
         let shown = numbers(&pose);
+        let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+        fields.extend(Field::entries(&title, &shown, &ground.names()));
         if let Math::Numbers(_, rows) = &shown {
             let counts = |x: &&String| !matches!(x.as_str(), "0" | "1");
             entries_in_numbers += rows.iter().flatten().filter(counts).count().max(1);
@@ -84,6 +81,9 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 4,
                 claims: link_claims,
                 formulas: if n > 1 { link_entries } else { 0 },
+                answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![links],
             },
             Task {
@@ -92,6 +92,9 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 4,
                 claims: forward_claims,
                 formulas,
+                answers: vec![],
+                fields: vec![],
+                has_formulas: true,
                 answer: vec![forward],
             },
             Task {
@@ -100,9 +103,65 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 2 * all.len() as u32,
                 claims: ["T", "P", "x", "y", "z"].map(String::from).to_vec(),
                 formulas: entries_in_numbers,
+                answers: vec![],
+                fields,
+                has_formulas: false,
                 answer: vec![in_numbers],
             },
         ],
+    })
+}
+
+/// What people call the transforms of so many links.
+fn of_links(n: usize, names: &Vocabulary) -> Vec<String> {
+    let of_link = |k: usize| {
+        let frame = claimed(&Math::Product(vec![link(k)]), names);
+        let letters = ["A", "T", "H"].iter();
+        let by_letter = letters.flat_map(move |l| [format!("{l}{k}{}", k + 1), format!("{k}{l}{}", k + 1)]);
+        [frame, format!("A{}", k + 1)].into_iter().chain(by_letter)
+    };
+    (0..n).flat_map(of_link).collect()
+}
+
+/// The link transforms alone, as formulas and in numbers.
+pub(super) fn links(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
+    let (s, words) = (&ground.setting, ground.words());
+    let d = &s.description;
+    let robot = Robot::numeric(d).map_err(NoExercise::Values)?;
+    let all = chosen.configurations(d, ground.options.count, |_| true)?;
+    let names = ground.names();
+    let model = Derivation::of(d, s.forward().clone());
+    let n = model.links.len();
+    let mut answer = Section::new(names.clone());
+    answer.push(transforms(&model.links));
+    let mut fields = vec![];
+    let mut formulas: usize = model.links.iter().map(|l| counted(l[..3].iter().flatten())).sum();
+    for (k, q) in all.iter().enumerate() {
+        answer.heading(3, Line::new(words.configuration_title(k + 1)));
+        answer.paragraph(ground.configuration(q));
+        for (j, row) in robot.links.iter().enumerate() {
+            let Math::Numbers(_, rows) = numbers(&row.transform(q)) else { continue };
+            let counts = |x: &&String| !matches!(x.as_str(), "0" | "1");
+            formulas += rows.iter().flatten().filter(counts).count().max(1);
+            let shown = Math::Numbers(link(j), rows);
+            let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+            fields.extend(Field::entries(&title, &shown, &names));
+            answer.formula(shown);
+        }
+    }
+    Ok(Asked {
+        given: ground.given(&all),
+        tasks: vec![Task {
+            name: words.heading(Heading::Links),
+            words: Line::new(words.ask_transforms()),
+            points: 2 * n as u32,
+            claims: of_links(n, &names),
+            formulas,
+            answers: vec![],
+            fields,
+            has_formulas: true,
+            answer: vec![answer],
+        }],
     })
 }
 
@@ -171,6 +230,9 @@ pub(super) fn table(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             points: 2 * d.rows.len() as u32,
             claims: vec!["table".into(), "table*".into()],
             formulas: 1,
+            answers: vec![],
+            fields: vec![],
+            has_formulas: true,
             answer: vec![answer],
         }],
     })

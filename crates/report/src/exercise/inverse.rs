@@ -2,15 +2,18 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task};
+use super::sheet::{Asked, Field, Ground, Task, claimed, quantity};
 use crate::document::{Block, Line, Math, Proof, Section, Sign};
 use crate::explain::{Explained, Explanation, Kind, Statement, uses_letters};
 use crate::render::too_long;
 use crate::sections::{numbers, within_turns};
+use crate::words::ExerciseKind;
+use denavit::description::JointKind;
 use denavit::geometry::{Rotation, Transform, Vector};
-use denavit::inverse::{InverseKinematics, InverseOptions, Solution};
+use denavit::inverse::{Goal, InverseKinematics, InverseModel, InverseOptions, Solution};
 use denavit_symbolic::readable::settled;
 use denavit_symbolic::{Expr, Symbol};
+use std::cmp::Ordering;
 
 /// A pose with more configurations is not asked for.
 const MOST: usize = 16;
@@ -23,13 +26,23 @@ struct Solved {
 
 /// The joints for poses: the formulas where there is a closed form, and all configurations in numbers.
 pub(super) fn configurations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
+    solved(ground, chosen, Goal::Pose)
+}
+
+/// The joints for positions of the tool.
+pub(super) fn positions(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExercise> {
+    solved(ground, chosen, Goal::Position)
+}
+
+fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoExercise> {
     let (s, words) = (&ground.setting, ground.words());
-    let solver = InverseKinematics::new(&s.description, &InverseOptions::default());
+    let is_pose = goal == Goal::Pose;
+    let solver = InverseKinematics::new(&s.description, &InverseOptions { goal, given: None });
     let solver = solver.map_err(NoExercise::Unprepared)?;
     if !solver.given.is_empty() {
         return Err(NoExercise::Redundant);
     }
-    let mut solved: Vec<Solved> = vec![];
+    let mut found: Vec<Solved> = vec![];
     let mut is_endless = false;
     // All configurations are known, each by itself, and the pose has been met.
     let all = chosen.configurations(&s.description, ground.options.count, |q| {
@@ -43,48 +56,104 @@ pub(super) fn configurations(ground: &Ground, chosen: &mut Chosen) -> Result<Ask
             && single;
         if serves {
             let turned = answer.solutions.into_iter().map(|f| within_turns(f, &solver.space));
-            solved.push(Solved { pose, solutions: turned.collect() });
+            found.push(Solved { pose, solutions: turned.collect() });
         }
         serves
     });
-    let all = all.map_err(|why| if solved.is_empty() && is_endless { NoExercise::Redundant } else { why })?;
+    let leaves_free = || {
+        let model = InverseModel::derive(&s.description, &InverseOptions { goal, given: None });
+        model.is_ok_and(|model| !model.given.is_empty())
+    };
+    is_endless = is_endless || (found.is_empty() && leaves_free());
+    let all = all.map_err(|why| if found.is_empty() && is_endless { NoExercise::Redundant } else { why })?;
 
     let mut given = Section::new(ground.names());
-    let mut answers = formulas(ground);
+    let mut answers = formulas(ground, goal);
     let mut in_numbers = Section::new(ground.names());
-    for (k, one) in solved.iter().enumerate() {
-        given.heading(3, Line::new(words.given_pose_title(k + 1)));
-        in_numbers.heading(3, Line::new(words.solved_pose_title(k + 1)));
-        for section in [&mut given, &mut in_numbers] {
-            section.formula(numbers(&one.pose));
+    for (k, one) in found.iter().enumerate() {
+        let titles = match is_pose {
+            true => [words.given_pose_title(k + 1), words.solved_pose_title(k + 1)],
+            false => [words.given_position_title(k + 1), words.solved_position_title(k + 1)],
+        };
+        for (section, title) in [&mut given, &mut in_numbers].into_iter().zip(titles) {
+            section.heading(3, Line::new(title));
+            if is_pose {
+                section.formula(numbers(&one.pose));
+                continue;
+            }
+            let coordinates = one.pose.translation.0.iter().zip(["px", "py", "pz"]);
+            let coordinates = coordinates.map(|(x, name)| quantity(Expr::symbol(name), *x, 4, "m"));
+            section.paragraph(Line::new(words.position_given()).list(coordinates));
         }
         for (j, f) in one.solutions.iter().enumerate() {
             let mut line = Line::new(words.numbered_solution(j + 1));
             line.0.extend(ground.configuration(&f.q).0);
             in_numbers.paragraph(line);
         }
-        let (found, families) = (one.solutions.len(), 0);
-        in_numbers.paragraph(Line::new(words.found(found, families, true)));
+        let (count, families) = (one.solutions.len(), 0);
+        in_numbers.paragraph(Line::new(words.found(count, families, true)));
     }
     answers.push(in_numbers);
-    let joints: usize = solved.iter().map(|one| one.solutions.len()).sum::<usize>() * all[0].len();
+    let fields = fields(ground, &found);
+    let joints: usize = found.iter().map(|one| one.solutions.len()).sum::<usize>() * all[0].len();
     Ok(Asked {
         given: vec![given],
         tasks: vec![Task {
             name: words.configurations_title(),
-            words: Line::new(words.ask_configurations(all.len())),
+            words: Line::new(match is_pose {
+                true => words.ask_configurations(all.len()),
+                false => words.ask_positions(all.len()),
+            }),
             points: 10,
             claims: ground.joints(),
             formulas: joints,
+            answers: vec![],
+            fields,
+            has_formulas: true,
             answer: answers,
         }],
     })
 }
 
+/// How many configurations there are, and the joints of that with the largest first joint, of several such the largest second.
+fn fields(ground: &Ground, found: &[Solved]) -> Vec<Field> {
+    let words = ground.words();
+    let is_pose = ground.options.kind == ExerciseKind::Inverse;
+    let mut fields = vec![];
+    for (k, one) in found.iter().enumerate() {
+        let (pose, position) = (words.given_pose_title(k + 1), words.given_position_title(k + 1));
+        let title = words.largest_of(if is_pose { &pose } else { &position });
+        let field = |label: String, value: f64, unit: &str| Field {
+            group: title.clone(),
+            label,
+            value,
+            unit: unit.into(),
+        };
+        fields.push(field("N".into(), one.solutions.len() as f64, ""));
+        // What is equal but for rounding is equal.
+        let rounded = |q: &[f64]| q.iter().map(|x| (x * 1e6).round()).collect::<Vec<f64>>();
+        let last = one
+            .solutions
+            .iter()
+            .map(|f| &f.q)
+            .max_by(|a, b| rounded(a).partial_cmp(&rounded(b)).unwrap_or(Ordering::Equal));
+        for (x, v) in last.into_iter().flatten().zip(ground.setting.description.variables()) {
+            let label = claimed(&Math::Expr(v.symbol.into()), &ground.names());
+            fields.push(match v.kind {
+                JointKind::Revolute => field(label, x.to_degrees(), "°"),
+                JointKind::Prismatic => field(label, *x, "m"),
+            });
+        }
+    }
+    fields
+}
+
 /// The closed form, where there is one that is proved: the equations of each step with their solution.
-fn formulas(ground: &Ground) -> Vec<Section> {
+fn formulas(ground: &Ground, goal: Goal) -> Vec<Section> {
     let (s, words) = (&ground.setting, ground.words());
-    let Ok(model) = s.inverse() else { return vec![] };
+    let derived = (goal != Goal::Pose)
+        .then(|| InverseModel::derive(&s.description, &InverseOptions { goal, given: None }));
+    let Ok(model) = derived.as_ref().unwrap_or_else(|| s.inverse()) else { return vec![] };
     let explanation = Explanation::of(model);
     if explanation.proof() != Proof::Proved {
         return vec![];

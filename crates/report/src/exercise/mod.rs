@@ -3,11 +3,19 @@
 //! Everything in a solution comes from the derivations of `denavit`. The names of a [`Rubric`]'s items are those that the
 //! solution uses, so that [`denavit_check::check`] and [`Rubric::mark`] mark what students hand in.
 
+mod arm;
 mod chosen;
+mod export;
 mod forward;
 mod inverse;
+mod motion;
+mod path;
 mod sheet;
+mod statics;
 mod velocity;
+
+pub use arm::{ArmOptions, Difficulty, exercise_of_arm};
+pub use export::{moodle, notebook, prairielearn};
 
 use crate::document::Document;
 use crate::words::{ExerciseKind, Tongue};
@@ -17,7 +25,7 @@ use denavit::inverse::Unprepared;
 use denavit::robot::MissingValue;
 use denavit::velocity::Obstacle;
 use denavit_check::marking::Rubric;
-use sheet::Asked;
+use sheet::{Asked, Question};
 use std::fmt;
 
 /// The most configurations or poses of a sheet.
@@ -49,6 +57,8 @@ pub struct Exercise {
     pub solution: Document,
     /// The points, item by item.
     pub rubric: Rubric,
+    /// The tasks one by one, as other systems have them.
+    questions: Vec<Question>,
 }
 
 /// Why there is no such exercise.
@@ -69,9 +79,15 @@ pub enum NoExercise {
     },
     /// The arm has joints too many: a pose has endless configurations.
     Redundant,
+    /// The equations of motion are for fewer joints.
+    ManyJoints,
+    /// The arm has no masses, and none can be put at the ends of its links, or not all have values.
+    Masses,
+    /// The check cannot judge all of its solution.
+    Unmarked,
     /// There can be no inverse kinematics.
     Unprepared(Unprepared),
-    /// The Jacobian is too large to be printed.
+    /// The formulas are too large to be printed.
     Large,
     /// The singularities are not had as formulas.
     Singular(Obstacle),
@@ -92,8 +108,14 @@ impl fmt::Display for NoExercise {
                 )
             }
             NoExercise::Redundant => write!(f, "the arm has endless configurations for a pose"),
+            NoExercise::Unmarked => write!(f, "not all of its solution can be marked"),
+            NoExercise::ManyJoints => write!(f, "equations of motion are for arms with at most three joints"),
+            NoExercise::Masses => write!(
+                f,
+                "the arm has no masses with values; they are put at the ends of links in the standard convention alone"
+            ),
             NoExercise::Unprepared(why) => why.fmt(f),
-            NoExercise::Large => write!(f, "the Jacobian is too large to be printed"),
+            NoExercise::Large => write!(f, "the formulas are too large to be printed"),
             NoExercise::Singular(why) => why.fmt(f),
             NoExercise::NeverSingular => {
                 write!(f, "the arm is nowhere singular, or not where a formula says it")
@@ -127,13 +149,22 @@ pub fn exercise(description: &Description, options: &ExerciseOptions) -> Result<
         return Err(NoExercise::Count(options.count));
     }
     let mut chosen = Chosen::new(options.seed);
-    let robot = chosen.with_values(&description.with_named_lengths());
+    let weighted = match options.kind {
+        ExerciseKind::Torques => Some(motion::weighted(description)?),
+        _ => None,
+    };
+    let robot = chosen.with_values(&weighted.as_ref().unwrap_or(description).with_named_lengths());
     let make: fn(&sheet::Ground, &mut Chosen) -> Result<Asked, NoExercise> = match options.kind {
         ExerciseKind::Forward => forward::poses,
         ExerciseKind::Table => forward::table,
         ExerciseKind::Inverse => inverse::configurations,
         ExerciseKind::Jacobian => velocity::jacobian,
         ExerciseKind::Singularities => velocity::singularities,
+        ExerciseKind::Transforms => forward::links,
+        ExerciseKind::Position => inverse::positions,
+        ExerciseKind::Statics => statics::torques,
+        ExerciseKind::Torques => motion::equations,
+        ExerciseKind::Path => path::timing,
     };
     let ground = sheet::Ground::new(&robot, options);
     let asked = make(&ground, &mut chosen)?;

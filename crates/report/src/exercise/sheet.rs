@@ -7,6 +7,7 @@ use crate::sections::{self, Setting};
 use crate::words::{Caption, ExerciseKind, Heading, Wording};
 use crate::{ReportOptions, decimals};
 use denavit::description::{Description, JointKind, Variable};
+use denavit_check::Answer;
 use denavit_check::marking::{Item, Rubric};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
@@ -30,7 +31,85 @@ pub(super) struct Task {
     pub claims: Vec<String>,
     /// How many formulas the answer has.
     pub formulas: usize,
+    /// Values that it asks for, which say nothing of the robot by themselves.
+    pub answers: Vec<Answer>,
+    /// Numbers that it asks for beside these.
+    pub fields: Vec<Field>,
+    /// Whether it asks for formulas, alone or beside numbers.
+    pub has_formulas: bool,
     pub answer: Vec<Section>,
+}
+
+/// A task as systems have it that ask and mark by themselves.
+#[derive(Clone, Debug)]
+pub(super) struct Question {
+    pub name: String,
+    pub words: Line,
+    pub points: u32,
+    /// Numbers that answer it; none where it asks for formulas.
+    pub fields: Vec<Field>,
+    /// Whether it asks for formulas, too.
+    pub has_formulas: bool,
+    pub answer: Vec<Section>,
+    /// The names in its words.
+    pub names: Vocabulary,
+}
+
+/// A number that is asked for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Field {
+    /// Where it holds: the title of a configuration, or nothing.
+    pub group: String,
+    /// What it is called, in LaTeX.
+    pub label: String,
+    pub value: f64,
+    pub unit: String,
+}
+
+impl Field {
+    /// The entries of a matrix of numbers, but zeros and ones.
+    pub(super) fn entries(group: &str, math: &Math, names: &Vocabulary) -> Vec<Field> {
+        let Math::Numbers(factor, rows) = math else { return vec![] };
+        let matrix = claimed(&Math::Product(vec![factor.clone()]), names);
+        let mut fields = vec![];
+        for (r, row) in (1..).zip(rows) {
+            for (c, x) in (1..).zip(row).filter(|(_, x)| !matches!(x.as_str(), "0" | "1")) {
+                fields.push(Field {
+                    group: group.into(),
+                    label: format!("({matrix})_{{{r}{c}}}"),
+                    value: x.parse().unwrap_or_default(),
+                    unit: String::new(),
+                });
+            }
+        }
+        fields
+    }
+}
+
+impl Task {
+    /// The numbers of its answers: of those with the same names, one for each configuration.
+    fn question(&self, words: &dyn Wording, names: &Vocabulary) -> Question {
+        let mut fields = self.fields.clone();
+        for (k, answer) in self.answers.iter().enumerate() {
+            let (Ok(value), Some(name)) = (answer.value.parse(), answer.names.first()) else { continue };
+            let alike = |all: &[Answer]| all.iter().filter(|other| other.names == answer.names).count();
+            let several = alike(&self.answers) > 1;
+            let group = several.then(|| words.configuration_title(alike(&self.answers[..=k])));
+            let symbol = Expr::symbol(name);
+            let label = claimed(&Math::Expr(symbol), &names.clone().symbol(name));
+            fields.push(Field { group: group.unwrap_or_default(), label, value, unit: answer.unit.clone() });
+        }
+        fields.sort_by(|a, b| a.group.cmp(&b.group));
+        Question {
+            name: self.name.clone(),
+            words: self.words.clone(),
+            points: self.points,
+            fields,
+            has_formulas: self.has_formulas,
+            answer: self.answer.clone(),
+            names: self.answer.first().map_or_else(|| names.clone(), |s| s.names.clone()),
+        }
+    }
 }
 
 /// What the sheets of all kinds have in common.
@@ -105,10 +184,12 @@ impl<'a> Ground<'a> {
             points: f64::from(t.points),
             whole: false,
             formulas: t.formulas,
+            answers: t.answers.clone(),
         });
         let title = words.exercise_title(kind, name);
         let rubric =
             Rubric { title: Some(title.clone()), conditional: 0.5, carried: 1.0, items: items.collect() };
+        let questions = asked.tasks.iter().map(|t| t.question(words, &self.names())).collect();
         let answers = asked.tasks.into_iter().flat_map(|task| {
             let mut heading = Section::new(self.names());
             heading.heading(2, Line::new(task.name));
@@ -120,6 +201,7 @@ impl<'a> Ground<'a> {
             statement: document(title, statement),
             solution,
             rubric,
+            questions,
             robot: self.setting.description,
         }
     }

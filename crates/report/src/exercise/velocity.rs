@@ -2,7 +2,7 @@
 
 use super::NoExercise;
 use super::chosen::Chosen;
-use super::sheet::{Asked, Ground, Task, counted, digits, quantity};
+use super::sheet::{Asked, Field, Ground, Task, counted, digits, quantity};
 use crate::document::{Block, Factor, Line, Math, Proof, Section};
 use crate::explain::velocity_vocabulary;
 use crate::render::{named, too_long};
@@ -11,6 +11,7 @@ use denavit::forward::{Proof as Forward, Reference};
 use denavit::inverse::JointSpace;
 use denavit::robot::Robot;
 use denavit::velocity::{JacobianModel, ROWS, Viewpoint, geometric};
+use denavit_check::Answer;
 use denavit_symbolic::{Angle, Expr};
 
 /// The matrix as a formula and in numbers.
@@ -41,7 +42,7 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
     let in_base = Viewpoint::tool();
     let base = words.viewpoint(in_base.body, in_base.at, None, in_base.axes);
     let mut in_numbers = Section::new(names);
-    let mut entries = 0;
+    let (mut entries, mut fields) = (0, vec![]);
     for (k, q) in all.iter().enumerate() {
         let shown: Vec<Vec<String>> = geometric(&robot, q, &in_base)
             .rows()
@@ -53,7 +54,10 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         in_numbers.paragraph(ground.configuration(q));
         // What stands right before a matrix says where it holds.
         in_numbers.paragraph(base.clone());
-        in_numbers.formula(Math::Numbers(Factor::named("J"), shown));
+        let shown = Math::Numbers(Factor::named("J"), shown);
+        let title = if all.len() > 1 { words.configuration_title(k + 1) } else { String::new() };
+        fields.extend(Field::entries(&title, &shown, &ground.names()));
+        in_numbers.formula(shown);
     }
     let mut tasks = vec![Task {
         name: words.jacobian_formula(),
@@ -61,6 +65,9 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         points: 6,
         claims: ["J", "J0", "0J", "Jv", "Jw", "j*"].map(String::from).to_vec(),
         formulas: counted(rows.iter().flatten()) + entries,
+        answers: vec![],
+        fields,
+        has_formulas: true,
         answer: vec![answer, in_numbers],
     }];
     let mut section = Section::new(ground.names());
@@ -97,10 +104,16 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
     let mut section = Section::new(names.clone());
     section.paragraph(ground.configuration(q));
     section.paragraph(line.clone());
-    let mut formulas = 0;
+    let mut answers = vec![];
     for (name, x) in ROWS.iter().zip(twist).take(3).filter(|(_, x)| x.abs() > 1e-9) {
-        // What is the velocity of a joint says nothing that is not given.
-        formulas += usize::from(rates.iter().all(|rate| (x.abs() - rate.abs()).abs() > 1e-9));
+        let axis = name.trim_start_matches('v');
+        let called = ["v", "V", "dot", "dotp", "dp", "d"].map(|l| format!("{l}{axis}"));
+        let behind = [format!("{axis}dot"), format!("{axis}p")];
+        answers.push(Answer {
+            names: called.into_iter().chain(behind).collect(),
+            value: digits(x, 4),
+            unit: "m/s".into(),
+        });
         section.paragraph(Line::default().math(quantity(Expr::symbol(name), x, 4, "m/s")));
     }
     let mut given = Section::new(names);
@@ -109,8 +122,11 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
         name: words.velocity_title(),
         words: Line::new(words.ask_velocity()),
         points: 2,
-        claims: ["v*", "x*", "y*", "z*"].map(String::from).to_vec(),
-        formulas,
+        claims: vec![],
+        formulas: 0,
+        answers,
+        fields: vec![],
+        has_formulas: false,
         answer: vec![section],
     };
     (given, task)
@@ -153,6 +169,9 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
             points: 4,
             claims: ["det J", "det*", "D"].map(String::from).to_vec(),
             formulas: 1,
+            answers: vec![],
+            fields: vec![],
+            has_formulas: true,
             answer: vec![answer],
         });
     }
@@ -180,6 +199,9 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
         points: 4,
         claims: ground.joints(),
         formulas,
+        answers: vec![],
+        fields: vec![],
+        has_formulas: true,
         answer: vec![answer],
     });
     Ok(Asked { given, tasks })

@@ -4,7 +4,7 @@ use denavit::description::{Diagnostic, Severity};
 use denavit_check::inverse::Undecided;
 use denavit_check::{
     About, Change, Condition, Instead, Jacobian, Meaning, Note, Noted, Remark, Sense, Skipped, SlipKind,
-    Unproved, Unread, Unreadable,
+    Unproved, Unread, Unreadable, ValueSlip,
 };
 use denavit_reading::slip::Slip;
 use denavit_symbolic::Symbol;
@@ -60,6 +60,9 @@ pub trait Check {
 
     /// What kind of change of a formula it is.
     fn formula_slip(&self, slip: &Slip) -> String;
+
+    /// How a value that was asked for differs from the right one.
+    fn value_slip(&self, slip: ValueSlip) -> String;
 
     /// A change of the robot, or of what is meant.
     fn change(&self, change: &Change) -> String;

@@ -17,19 +17,34 @@ pub enum ExerciseKind {
     Jacobian,
     /// Where the arm is singular.
     Singularities,
+    /// The link transforms alone.
+    Transforms,
+    /// All configurations for a position of the hand.
+    Position,
+    /// The torques of the joints for a force at the hand.
+    Statics,
+    /// The equations of motion of an arm with masses.
+    Torques,
+    /// The timing of a motion between two configurations.
+    Path,
 }
 
 impl ExerciseKind {
     /// All of them.
-    pub const ALL: [ExerciseKind; 5] = [
+    pub const ALL: [ExerciseKind; 10] = [
         ExerciseKind::Forward,
         ExerciseKind::Table,
         ExerciseKind::Inverse,
         ExerciseKind::Jacobian,
         ExerciseKind::Singularities,
+        ExerciseKind::Transforms,
+        ExerciseKind::Position,
+        ExerciseKind::Statics,
+        ExerciseKind::Torques,
+        ExerciseKind::Path,
     ];
 
-    /// Its name: `fk`, `dh`, `ik`, `jacobian`, `singularities`.
+    /// Its name: `fk`, `dh`, `ik`, `jacobian`, `singularities`, `transforms`, `position`, `statics`, `torques`, `path`.
     pub fn name(self) -> &'static str {
         match self {
             ExerciseKind::Forward => "fk",
@@ -37,6 +52,11 @@ impl ExerciseKind {
             ExerciseKind::Inverse => "ik",
             ExerciseKind::Jacobian => "jacobian",
             ExerciseKind::Singularities => "singularities",
+            ExerciseKind::Transforms => "transforms",
+            ExerciseKind::Position => "position",
+            ExerciseKind::Statics => "statics",
+            ExerciseKind::Torques => "torques",
+            ExerciseKind::Path => "path",
         }
     }
 }
@@ -150,4 +170,121 @@ pub trait Exercise {
 
     /// That the arm is singular where something is so.
     fn singular_where(&self, condition: Math) -> Line;
+
+    /// The coefficients of polynomials, as a heading.
+    fn coefficients(&self) -> String;
+
+    /// Of a pose with this title: the number N of configurations, and that with the largest first joint.
+    fn largest_of(&self, title: &str) -> String;
+
+    /// What an arm is called that is made up, by the letters of its joints.
+    fn made_up_arm(&self, joints: &str, seed: u64) -> String;
+
+    /// To give the link transforms as formulas and in numbers.
+    fn ask_transforms(&self) -> String;
+
+    /// To give all configurations for so many positions.
+    fn ask_positions(&self, count: usize) -> String;
+
+    /// The heading of a position.
+    fn given_position_title(&self, number: usize) -> String;
+
+    /// The heading of what solves a position.
+    fn solved_position_title(&self, number: usize) -> String;
+
+    /// Before the coordinates of the hand's position.
+    fn position_given(&self) -> String;
+
+    /// The torques as formulas, as a heading.
+    fn torque_formulas_title(&self) -> String;
+
+    /// The torques in numbers, as a heading.
+    fn torque_numbers_title(&self) -> String;
+
+    /// To give the torques for a force with these components.
+    fn ask_statics(&self, force: Vec<Math>) -> Line;
+
+    /// To give the torques in numbers at so many configurations.
+    fn ask_torque_numbers(&self, count: usize) -> String;
+
+    /// Before the components of the force in numbers.
+    fn force_given(&self) -> String;
+
+    /// That the torques come from the Jacobian of velocities.
+    fn statics_step(&self) -> String;
+
+    /// What masses the arm has: one at the end of each link.
+    fn point_masses(&self) -> String;
+
+    /// The direction of gravity, before its components.
+    fn gravity_in_base(&self, components: [Math; 3]) -> Line;
+
+    /// The parts of the equations of motion, as a heading.
+    fn motion_parts_title(&self) -> String;
+
+    /// To give inertia matrix, velocity torques and gravity torques.
+    fn ask_motion_parts(&self) -> String;
+
+    /// To give the torques of the joints from rates and accelerations.
+    fn ask_motion(&self) -> String;
+
+    /// Before the inertia matrix.
+    fn inertia_step(&self) -> String;
+
+    /// Before the velocity torques.
+    fn velocity_torques_step(&self) -> String;
+
+    /// Before the torques of gravity.
+    fn gravity_step(&self) -> String;
+
+    /// That the sum of the parts is the torque.
+    fn motion_step(&self) -> String;
+
+    /// Before accelerations of the joints.
+    fn accelerations_given(&self) -> String;
+
+    /// The heading of where a motion begins and ends.
+    fn motion_title(&self) -> String;
+
+    /// Where it begins.
+    fn motion_begins(&self, configuration: Line) -> Line;
+
+    /// Where it ends.
+    fn motion_ends(&self, configuration: Line) -> Line;
+
+    /// The cubic polynomials, as a heading.
+    fn cubic_title(&self) -> String;
+
+    /// To give the cubic polynomials for a duration, seconds.
+    fn ask_cubic(&self, seconds: Math) -> Line;
+
+    /// How a cubic polynomial follows.
+    fn cubic_step(&self, formula: Math) -> Line;
+
+    /// The greatest speeds, as a heading.
+    fn peaks_title(&self) -> String;
+
+    /// To give the greatest speed of each joint.
+    fn ask_peaks(&self, names: Vec<Math>) -> Line;
+
+    /// How it follows.
+    fn peaks_step(&self, formula: Math) -> Line;
+
+    /// The times of the fastest motion, as a heading.
+    fn trapezoid_title(&self) -> String;
+
+    /// To give the shortest time of each joint, and of all together.
+    fn ask_trapezoid(&self, names: Vec<Math>, whole: Math) -> Line;
+
+    /// Before the limits of a joint.
+    fn joint_limits(&self, joint: Math, speed: &str, acceleration: &str) -> Line;
+
+    /// A joint that reaches its speed, with its time.
+    fn trapezoid_step(&self, joint: Math, formula: Math) -> Line;
+
+    /// A joint that does not reach its speed, with its time.
+    fn triangle_step(&self, joint: Math, formula: Math) -> Line;
+
+    /// That the slowest joint says the time of all.
+    fn slowest_step(&self, whole: Math) -> Line;
 }

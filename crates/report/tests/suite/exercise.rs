@@ -2,7 +2,7 @@
 
 use denavit::catalogue;
 use denavit::description::Description;
-use denavit_check::{CheckOptions, Checked, Standing, check};
+use denavit_check::{CheckOptions, Checked, Finding, Standing, check};
 use denavit_reading::document::Format;
 use denavit_report::words::Tongue;
 use denavit_report::{Exercise, ExerciseKind, ExerciseOptions, NoExercise, exercise, render};
@@ -32,12 +32,45 @@ fn judged(text: &str, format: Format, of: &Description) -> Checked {
         .unwrap_or_else(|errors| panic!("{errors:?}\n{text}"))
 }
 
+/// What an answer earns.
+pub struct Earned {
+    pub points: f64,
+    /// What a teacher decides on.
+    pub open: f64,
+    /// Whether something is called wrong, and with its slip.
+    pub accused: bool,
+    pub named: bool,
+}
+
+pub fn earned(e: &Exercise, text: &str, format: Format) -> Earned {
+    let mut checked = judged(text, format, &e.robot);
+    e.rubric.answer(text, format, &mut checked);
+    let sheet = e.rubric.mark(text, &checked);
+    let entries = checked.claims.iter().flat_map(|c| &c.entries);
+    let wrong: Vec<bool> = entries
+        .filter_map(|entry| match &entry.finding {
+            Finding::Wrong(wrong) => Some(wrong.slip.is_some()),
+            _ => None,
+        })
+        .chain(checked.answered.iter().filter(|a| a.slip.is_some()).map(|_| true))
+        .collect();
+    Earned {
+        points: sheet.points(),
+        open: sheet.open(),
+        accused: !wrong.is_empty(),
+        named: wrong.contains(&true),
+    }
+}
+
 /// What is not right of a solution.
 fn faults(e: &Exercise, text: &str, format: Format, of: &Description) -> Vec<String> {
-    let checked = judged(text, format, of);
+    let mut checked = judged(text, format, of);
+    e.rubric.answer(text, format, &mut checked);
     let open = checked.claims.iter().filter(|c| c.standing() != Standing::Equal);
     let mut faults: Vec<String> =
         open.map(|c| format!("{:?} {}: {}", c.standing(), c.name, &text[c.span.clone()])).collect();
+    let wrong = checked.answered.iter().filter_map(|a| Some((a.slip?, &a.name, &a.right)));
+    faults.extend(wrong.map(|(slip, name, right)| format!("{name}: {slip:?}, right is {right}")));
     faults.extend(checked.unjudged.iter().map(|u| format!("not judged: {}", &text[u.span.clone()])));
     for (mark, item) in e.rubric.mark(text, &checked).marks.iter().zip(&e.rubric.items) {
         if mark.points < item.points {
@@ -50,15 +83,22 @@ fn faults(e: &Exercise, text: &str, format: Format, of: &Description) -> Vec<Str
 
 #[test]
 fn solutions_are_proved_and_earn_all_points() {
-    let mut made_of = [0; 5];
+    let mut made_of = [0; 10];
     let mut found = vec![];
     for name in ROBOTS {
         for (k, kind) in ExerciseKind::ALL.into_iter().enumerate() {
             let e = match made(name, kind, 3) {
                 Ok(e) => e,
-                // Slides alone are never singular in the form of an angle.
+                // Slides alone are never singular in the form of an angle; positions leave joints free; torques are for three joints,
+                // and what a page holds.
                 Err(NoExercise::NeverSingular | NoExercise::Singular(_)) => continue,
-                Err(why) => panic!("{name}, {kind:?}: {why}"),
+                Err(
+                    NoExercise::Redundant | NoExercise::ManyJoints | NoExercise::Masses | NoExercise::Large,
+                ) => continue,
+                Err(why) => {
+                    found.push(format!("{name}, {kind:?}: {why}"));
+                    continue;
+                }
             };
             made_of[k] += 1;
             let markdown = render::markdown(&e.solution, "figures").text;
@@ -67,7 +107,7 @@ fn solutions_are_proved_and_earn_all_points() {
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
-    assert!(made_of.iter().all(|n| *n >= 5), "{made_of:?}");
+    assert!(made_of.iter().all(|n| *n >= 3), "{made_of:?}");
 }
 
 /// Held against the robot of the catalogue, too, and as LaTeX, whose tables are none that is read.
@@ -107,7 +147,7 @@ fn a_slip_costs_points() {
     let right = render::markdown(&e.solution, "figures").text;
     let wrong = right.replacen("-S_{1}", "S_{1}", 1);
     assert_ne!(right, wrong);
-    let points = |text: &str| e.rubric.mark(text, &judged(text, Format::Markdown, &e.robot)).points();
+    let points = |text: &str| earned(&e, text, Format::Markdown).points;
     assert_eq!(points(&right), e.rubric.points());
     assert!(points(&wrong) < e.rubric.points());
     // And so does what is left out.

@@ -3,6 +3,7 @@
 mod checked;
 mod escape;
 mod exercise;
+mod exercise_marks;
 mod explain;
 mod fed_back;
 mod figures;

@@ -217,8 +217,13 @@ fn held(options: &Options, file: &str) -> Result<Held, String> {
         language: language_of(file),
         ..CheckOptions::default()
     };
-    let checked = check(&text, Format::of(file, &text), Some(&robot), &check_options)
+    let format = Format::of(file, &text);
+    let checked = check(&text, format, Some(&robot), &check_options)
         .map_err(|notes| render(&findings(notes.iter()), file, &text))?;
+    let mut checked = checked;
+    if let Some(rubric) = &options.rubric {
+        rubric.answer(&text, format, &mut checked);
+    }
     let document = Document { name: file, text: &text, checked: &checked };
     let sheet = options.rubric.as_ref().map(|r| r.mark(&text, &checked));
     let line = |at: usize| line_column(&text, at).0;
@@ -256,6 +261,13 @@ fn slips(checked: &Checked) -> Vec<(String, String)> {
             if !found.contains(&(name.clone(), slip.clone())) {
                 found.push((name, slip));
             }
+        }
+    }
+    for answered in &checked.answered {
+        let Some(slip) = answered.slip else { continue };
+        let told = (answered.name.clone(), words().value_slip(slip));
+        if !found.contains(&told) {
+            found.push(told);
         }
     }
     found

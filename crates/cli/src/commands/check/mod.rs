@@ -139,6 +139,10 @@ fn one(arguments: &CheckArguments, task: Option<&Task>) -> Result<(), Failure> {
     let format = Format::of(&name, &text);
     let checked = check(&text, format, robot.as_ref(), &options)
         .map_err(|notes| Failure::Input(render(&findings(notes.iter()), &name, &text)))?;
+    let mut checked = checked;
+    if let Some(task) = task {
+        task.rubric.answer(&text, format, &mut checked);
+    }
     let document = Document { name: &name, text: &text, checked: &checked };
     let worth = checked.notes.iter().filter(|n| arguments.all || n.severity != Severity::Note);
     note(&render(&findings(worth), &name, &text));
@@ -233,10 +237,11 @@ fn verdict(document: &Document) -> Result<(), Failure> {
             "claims follow from earlier errors",
         )));
     }
-    if tally.unjudged > 0 && !document.checked.claims.is_empty() {
+    let is_empty = document.checked.claims.is_empty() && document.checked.answered.is_empty();
+    if tally.unjudged > 0 && !is_empty {
         return Err(Failure::Input(plural(tally.unjudged, "line is not judged", "lines are not judged")));
     }
-    if document.checked.claims.is_empty() {
+    if is_empty {
         let hint = "a claim is an equation such as `P_x = …`, `T06 = […]` or `θ1 = atan2(…)`; say what a left side means \
              with --claim, or with a comment `check: claim T06` before it";
         return Err(Failure::Input(format!(

@@ -12,10 +12,12 @@
 //! points = 4
 //! whole = true                 # all or nothing; else each formula earns its share
 //! formulas = 12                # how many a full answer has: what is missing earns nothing
+//! answers = [{ names = ["T_1"], value = "2.5", unit = "s" }]   # values that say nothing of the robot
 //! ```
 
 use crate::failure::Failure;
 use denavit::description::line_column;
+use denavit_check::Answer;
 use denavit_check::marking::{Item, Rubric};
 
 /// The keys of the file.
@@ -44,8 +46,32 @@ pub fn write(rubric: &Rubric, robot: &str) -> String {
         if item.whole {
             out += "whole = true\n";
         }
+        if !item.answers.is_empty() {
+            out += "answers = [\n";
+            for answer in &item.answers {
+                let names: Vec<String> = answer.names.iter().map(|n| text(n)).collect();
+                let [names, value, unit] = [names.join(", "), text(&answer.value), text(&answer.unit)];
+                out += &format!("  {{ names = [{names}], value = {value}, unit = {unit} }},\n");
+            }
+            out += "]\n";
+        }
     }
     out
+}
+
+/// The values that an item asks for; nothing if they are not told.
+fn answers(value: Option<&toml::Value>) -> Option<Vec<Answer>> {
+    let Some(value) = value else { return Some(vec![]) };
+    let one = |value: &toml::Value| {
+        let names = value.get("names")?.as_array()?.iter();
+        let number = value.get("value")?;
+        Some(Answer {
+            names: names.map(|n| n.as_str().map(str::to_string)).collect::<Option<_>>()?,
+            value: number.as_str().map_or_else(|| number.to_string(), str::to_string),
+            unit: value.get("unit").and_then(toml::Value::as_str).unwrap_or_default().to_string(),
+        })
+    };
+    value.as_array()?.iter().map(one).collect()
 }
 
 /// Reads a rubric file.
@@ -78,6 +104,8 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
         let claims = match get("claims") {
             Some(toml::Value::String(one)) => Some(vec![one.clone()]),
             Some(toml::Value::Array(all)) => all.iter().map(|c| c.as_str().map(str::to_string)).collect(),
+            // Values have names of their own.
+            None if get("answers").is_some() => Some(vec![]),
             _ => None,
         };
         match (claims, get("points").and_then(&number)) {
@@ -86,6 +114,13 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
                 claims,
                 points,
                 whole: get("whole").and_then(toml::Value::as_bool).unwrap_or(false),
+                answers: match answers(get("answers")) {
+                    Some(answers) => answers,
+                    None => {
+                        errors.push(format!("the answers of item {n} need `names` and a `value`, a formula"));
+                        vec![]
+                    }
+                },
                 formulas: get("formulas").and_then(toml::Value::as_integer).map_or(0, |n| n.max(0) as usize),
             }),
             _ => errors.push(format!("item {n} needs `claims` (names) and `points` (a number)")),

@@ -1,6 +1,7 @@
 //! The sheet of one document: points item by item.
 
 use super::Document;
+use crate::terminal::words;
 use crate::terminal::{Align, decimals, table};
 use denavit_check::Standing;
 use denavit_check::marking::{Mark, Rubric, Sheet};
@@ -50,6 +51,9 @@ pub fn remark(mark: &Mark, line: impl Fn(usize) -> usize) -> String {
         if !names.is_empty() {
             parts.push(format!("{what} {}", names.join(", ")));
         }
+    }
+    for (name, slip, right) in mark.slips.iter().take(6) {
+        parts.push(format!("{name}: {}, right is {right}", words().value_slip(*slip)));
     }
     let mut lines: Vec<String> = mark.by_hand.iter().map(|s| line(s.start).to_string()).collect();
     lines.dedup();

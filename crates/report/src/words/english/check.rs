@@ -7,8 +7,8 @@ use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Undecided};
 use denavit_check::{
     About, Change, Condition, Dynamic, Formula, Instead, Jacobian, Meaning, Noted, Placement, ReadWith,
-    Remark, Sense, ShortRow, Skipped, SlipKind, Spoken, TableCell, Unproved, Unreadable, Whereabouts, Zeros,
-    decimal,
+    Remark, Sense, ShortRow, Skipped, SlipKind, Spoken, TableCell, Unproved, Unreadable, ValueSlip,
+    Whereabouts, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -318,6 +318,17 @@ impl Check for English {
             }
         }
         .into()
+    }
+
+    fn value_slip(&self, slip: ValueSlip) -> String {
+        match slip {
+            ValueSlip::Sign => "a sign".into(),
+            ValueSlip::AngleUnit => "degrees and radians exchanged".into(),
+            ValueSlip::Factor => "a factor".into(),
+            ValueSlip::PowerOfTen => "a power of ten".into(),
+            ValueSlip::Term(n) => format!("the term in the power {n}"),
+            ValueSlip::Other => "another value".into(),
+        }
     }
 
     fn change(&self, change: &Change) -> String {

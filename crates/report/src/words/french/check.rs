@@ -9,7 +9,7 @@ use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
 use denavit_check::{
     About, Change, Condition, Formula, Instead, Jacobian, Meaning, Noted, Placement, Remark, Sense, ShortRow,
-    Skipped, SlipKind, TableCell, Unproved, Unreadable, Zeros, decimal,
+    Skipped, SlipKind, TableCell, Unproved, Unreadable, ValueSlip, Zeros, decimal,
 };
 use denavit_reading::slip::Slip;
 
@@ -338,6 +338,17 @@ impl Check for French {
                 };
             }
         })
+    }
+
+    fn value_slip(&self, slip: ValueSlip) -> String {
+        match slip {
+            ValueSlip::Sign => "un signe".into(),
+            ValueSlip::AngleUnit => "degrés et radians intervertis".into(),
+            ValueSlip::Factor => "un facteur".into(),
+            ValueSlip::PowerOfTen => "une puissance de dix".into(),
+            ValueSlip::Term(n) => format!("le terme de degré {n}"),
+            ValueSlip::Other => "une autre valeur".into(),
+        }
     }
 
     fn change(&self, change: &Change) -> String {
