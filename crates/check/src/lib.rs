@@ -5,7 +5,6 @@
 //! (`judge`). For what is wrong, the smallest change that mends it is looked for, first of the robot's table (`causes`),
 //! then of the formula (`denavit_reading::slip`).
 
-mod answers;
 mod apart;
 mod blamed;
 mod carried;
@@ -64,11 +63,11 @@ mod trial;
 mod unjudged;
 mod unsupported;
 mod values;
+mod values_asked;
 mod walk;
 mod weights;
 mod whole;
 
-pub use answers::{Answer, Answered, ValueSlip};
 pub use facts::{
     About, Change, Condition, Dynamic, Instead, Jacobian, Meaning, Placement, ReadWith, Remark, Sense,
     ShortRow, SlipKind, Spoken, TableCell, Unproved, Whereabouts, Zeros,
@@ -80,6 +79,7 @@ pub use outcome::{
     Cause, Checked, Claim, Counterexample, Entry, Finding, Patch, Skipped, Slip, Standing, Tally, Unjudged,
     Wrong,
 };
+pub use values_asked::{Answer, Answered, ValueSlip};
 
 use denavit::description::{Convention, Description, TableOptions};
 use denavit_reading::code::Dialect;

@@ -1,9 +1,9 @@
 //! What is said of a document.
 
-use super::answers::Answered;
 use super::facts::{About, Change, Condition, Instead, Remark, SlipKind, Unproved};
 use super::formula::Formula;
 use super::note::{Note, Unread, Unreadable};
+use super::values_asked::Answered;
 use denavit::description::Description;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub struct Checked {
     pub notes: Vec<Note>,
     /// The robots that the claims are about.
     pub robots: Vec<Description>,
-    /// What was held against the values that a rubric asks for ([`Rubric::answer`](super::marking::Rubric::answer)).
+    /// What was held against the values that a rubric asks for (`Rubric::answer`).
     pub answered: Vec<Answered>,
 }
 

@@ -4,59 +4,15 @@
 //! equivalent form, in degrees or radians, within a unit of the last printed digit. What is made of other letters is left
 //! to the check of the robot.
 
-use super::marking::Rubric;
-use super::marking::{fits, plain};
-use super::outcome::Checked;
-use super::outcome::Finding;
+use super::{Item, Rubric, fits, plain};
+use crate::outcome::{Checked, Finding};
+use crate::values_asked::{Answer, Answered, ValueSlip};
 use denavit_reading::document::{Document, Format, Side, Statement, read};
 use denavit_symbolic::parse::parse;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 use std::collections::BTreeSet;
 use std::ops::Range;
-
-/// A value that is asked for.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Answer {
-    /// What people call it: letters and digits only, `*` for any.
-    pub names: Vec<String>,
-    /// Its value as a formula: of numbers, or of numbers and one letter.
-    pub value: String,
-    /// Its unit, nothing where it has none.
-    pub unit: String,
-}
-
-/// A statement that was held against an answer.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Answered {
-    /// The item of the rubric, and which of its answers.
-    pub of: [usize; 2],
-    /// Where it stands.
-    pub span: Range<usize>,
-    /// Its left side as printed.
-    pub name: String,
-    /// What is wrong with it; nothing if it is right.
-    pub slip: Option<ValueSlip>,
-    /// What is right, with its unit.
-    pub right: String,
-}
-
-/// How a value differs from the right one.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ValueSlip {
-    /// By its sign.
-    Sign,
-    /// Radians stand where degrees do, or the other way round.
-    AngleUnit,
-    /// By a factor of two or three, or one of these is missing.
-    Factor,
-    /// By a power of ten.
-    PowerOfTen,
-    /// One term is another: that with this power of the letter.
-    Term(usize),
-    /// In another way.
-    Other,
-}
 
 /// Where functions of a letter are compared.
 const SAMPLES: [f64; 6] = [0.0, 0.37, 0.81, 1.13, 1.69, 2.3];
@@ -186,7 +142,7 @@ pub fn answer(rubric: &Rubric, text: &str, format: Format, checked: &mut Checked
 fn judged(
     item_at: usize,
     alike: &[usize],
-    item: &super::marking::Item,
+    item: &Item,
     text: &str,
     document: &Document,
 ) -> Vec<(Answered, bool)> {

@@ -1,7 +1,9 @@
 //! Points for what a document shows, by a teacher's rubric: what was not judged is not wrong, it is marked by hand.
 
-use super::answers::{self, Answer, ValueSlip};
+mod answers;
+
 use super::outcome::{Checked, Claim, Entry, Standing};
+use super::values_asked::{Answer, ValueSlip};
 use denavit_reading::document::Format;
 use denavit_symbolic::greek;
 use std::ops::Range;
