@@ -50,7 +50,7 @@ pub(super) fn tables_of(
     if !is_program && !printed.is_empty() {
         return printed;
     }
-    let told = told_rows(bare).filter(|_| is_program).and_then(|l| table(&l, reading));
+    let told = is_program.then(|| told_rows(bare)).flatten().and_then(|l| table(&l, reading));
     let (mut listed, unread): (Vec<PrintedTable>, Vec<_>) = told.into_iter().partition(|t| t.robot.is_ok());
     // A head that was taken for words leaves rows out, a length that slides a joint.
     let most = |tables: &[PrintedTable]| {

@@ -172,13 +172,13 @@ fn counted<'a>(text: &str, claim: &'a Claim) -> Vec<&'a Entry> {
 }
 
 /// Letters and digits alone, Greek letters by their names.
-pub(super) fn plain(name: &str) -> String {
+fn plain(name: &str) -> String {
     let kept = name.chars().filter(|c| c.is_alphanumeric() || *c == '*');
     kept.map(|c| greek::name(c).map_or(c.to_string(), str::to_string)).collect()
 }
 
 /// Whether a name fits a pattern in which `*` stands for any letters.
-pub(super) fn fits(pattern: &str, name: &str) -> bool {
+fn fits(pattern: &str, name: &str) -> bool {
     let parts: Vec<&str> = pattern.split('*').collect();
     let (Some(first), Some(last)) = (parts.first(), parts.last()) else { return false };
     if parts.len() == 1 {

@@ -34,11 +34,9 @@ impl Program<'_> {
                     false => self.named(name, &shown, span, &r.value),
                 });
             // `def T12(th2): return np.array(…)`
-            let called = || match (&r.value, r.name.as_deref()) {
-                (Value::Matrix(_), None) => self.named(&function.name, &shown, span, &r.value),
-                (Value::Matrix(_), Some(name)) if words(name).all(|w| w.len() == 1) => {
-                    self.named(&function.name, &shown, span, &r.value)
-                }
+            let says_nothing = r.name.as_ref().is_none_or(|name| name.chars().count() == 1);
+            let called = || match &r.value {
+                Value::Matrix(_) if says_nothing => self.named(&function.name, &shown, span, &r.value),
                 _ => None,
             };
             found.extend(named.or_else(called).or_else(|| {

@@ -50,15 +50,15 @@ pub(crate) fn computed(
 
 /// The comparisons of tests, `np.testing.assert_allclose(T, expected)`, with what they are called.
 fn tests(text: &str, span: &Range<usize>) -> Vec<(Range<usize>, String)> {
-    const CALLS: [&str; 5] = ["assert", "EXPECT_", "ASSERT_", "CHECK(", "REQUIRE("];
+    const CALLS: [&str; 5] = ["assert", "EXPECT_", "ASSERT_", "CHECK", "REQUIRE"];
     let program = text.get(span.clone()).unwrap_or_default();
     let test = |line: Range<usize>| {
         let source = program.get(line.clone())?;
         let bare = source.trim();
         let name = bare.split(['(', ' ']).next().unwrap_or_default();
         let last = name.rsplit('.').next().unwrap_or_default();
-        let is_test =
-            CALLS.iter().any(|c| last.starts_with(c.trim_end_matches('(')) && bare.contains(['(', ' ']));
+        let is_called = bare[name.len()..].starts_with('(') || last == "assert";
+        let is_test = is_called && CALLS.iter().any(|c| last.starts_with(c));
         let start = span.start + line.start + (source.len() - source.trim_start().len());
         is_test.then(|| (start..start + bare.len(), last.to_string()))
     };

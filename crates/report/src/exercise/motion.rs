@@ -3,7 +3,7 @@
 use super::NoExercise;
 use super::chosen::Chosen;
 use super::sheet::{Asked, Ground, Task, counted, digits};
-use super::statics::{claims, name, of_joint};
+use super::statics::{claims, in_numbers_task, name, of_joint};
 use crate::document::{Block, Factor, Line, Math, Proof, Section};
 use crate::render::too_long;
 use denavit::description::{Convention, Description, JointKind, Parameter};
@@ -115,7 +115,7 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
         symbols.iter().zip(values).enumerate().map(value).collect::<Vec<_>>()
     };
     let mut section = Section::new(names.clone());
-    if !description_has_masses(ground) {
+    if are_points(ground) {
         section.paragraph(Line::new(words.point_masses()));
     }
     let [x, y, z] = model.formulas.dynamics.gravity.0.map(Math::Expr);
@@ -165,25 +165,15 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                 has_formulas: true,
                 answer: vec![formulas],
             },
-            Task {
-                name: words.torque_numbers_title(),
-                words: Line::new(words.ask_torque_numbers(all.len())),
-                points: (joints * all.len()) as u32,
-                claims: vec![],
-                formulas: 0,
-                answers,
-                fields: vec![],
-                has_formulas: false,
-                answer: vec![in_numbers],
-            },
+            in_numbers_task(ground, all.len(), answers, in_numbers),
         ],
     })
 }
 
 /// Whether the masses are points at the origins of the frames.
-fn description_has_masses(ground: &Ground) -> bool {
+fn are_points(ground: &Ground) -> bool {
     let rows = &ground.setting.description.rows;
-    rows.iter().any(|r| {
+    !rows.iter().any(|r| {
         r.com.is_some() || r.inertia.is_some() || r.first_moment.is_some() || r.inertia_at_origin.is_some()
     })
 }

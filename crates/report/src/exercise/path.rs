@@ -107,7 +107,7 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
         polynomials.push(Answer {
             names: letters.collect(),
             value: print(value, &Vocabulary::new(), Style::Ascii),
-            unit: way.unit("").trim().into(),
+            unit: way.unit("").into(),
         });
         let peak = 1.5 * number(&way.by).abs() / seconds as f64;
         peaks.paragraph(Line::default().math(quantity(named("v", j), peak, 4, way.unit("/s"))));
@@ -118,7 +118,7 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
                 .flat_map(|l| [format!("{l}{k}"), format!("{l}{k}max"), format!("{l}max{k}")])
                 .collect(),
             value: digits(peak, 4),
-            unit: way.unit("/s").trim().into(),
+            unit: way.unit("/s").into(),
         });
         let (reaches, time) = way.time();
         let step = match reaches {

@@ -84,19 +84,30 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
                 has_formulas: true,
                 answer: vec![answer],
             },
-            Task {
-                name: words.torque_numbers_title(),
-                words: Line::new(words.ask_torque_numbers(all.len())),
-                points: (joints * all.len()) as u32,
-                claims: vec![],
-                formulas: 0,
-                answers,
-                fields: vec![],
-                has_formulas: false,
-                answer: vec![in_numbers],
-            },
+            in_numbers_task(ground, all.len(), answers, in_numbers),
         ],
     })
+}
+
+/// The task to give these torques in numbers, a point each.
+pub(super) fn in_numbers_task(
+    ground: &Ground,
+    configurations: usize,
+    answers: Vec<Answer>,
+    solution: Section,
+) -> Task {
+    let words = ground.words();
+    Task {
+        name: words.torque_numbers_title(),
+        words: Line::new(words.ask_torque_numbers(configurations)),
+        points: answers.len() as u32,
+        claims: vec![],
+        formulas: 0,
+        answers,
+        fields: vec![],
+        has_formulas: false,
+        answer: vec![solution],
+    }
 }
 
 /// What the torque of a joint is called.
@@ -116,7 +127,7 @@ pub(super) fn of_joint(j: usize, value: f64, turns: bool) -> Answer {
     if !turns {
         names.extend(["f", "F"].map(|letter| format!("{letter}{j}")));
     }
-    Answer { names, value: digits(value, 4), unit: unit(turns).trim().to_string() }
+    Answer { names, value: digits(value, 4), unit: unit(turns).to_string() }
 }
 
 /// What people call torques, and forces of slides.

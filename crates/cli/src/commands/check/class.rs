@@ -218,9 +218,8 @@ fn held(options: &Options, file: &str) -> Result<Held, String> {
         ..CheckOptions::default()
     };
     let format = Format::of(file, &text);
-    let checked = check(&text, format, Some(&robot), &check_options)
+    let mut checked = check(&text, format, Some(&robot), &check_options)
         .map_err(|notes| render(&findings(notes.iter()), file, &text))?;
-    let mut checked = checked;
     if let Some(rubric) = &options.rubric {
         rubric.answer(&text, format, &mut checked);
     }

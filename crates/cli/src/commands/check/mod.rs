@@ -137,9 +137,8 @@ fn one(arguments: &CheckArguments, task: Option<&Task>) -> Result<(), Failure> {
         language: language_of(&name),
     };
     let format = Format::of(&name, &text);
-    let checked = check(&text, format, robot.as_ref(), &options)
+    let mut checked = check(&text, format, robot.as_ref(), &options)
         .map_err(|notes| Failure::Input(render(&findings(notes.iter()), &name, &text)))?;
-    let mut checked = checked;
     if let Some(task) = task {
         task.rubric.answer(&text, format, &mut checked);
     }
