@@ -107,7 +107,7 @@ impl fmt::Display for NoExercise {
                     "{found} regular configurations with round numbers were found, {asked} are asked for"
                 )
             }
-            NoExercise::Redundant => write!(f, "the arm has endless configurations for a pose"),
+            NoExercise::Redundant => write!(f, "the arm has endless configurations for a goal"),
             NoExercise::Unmarked => write!(f, "not all of its solution can be marked"),
             NoExercise::ManyJoints => write!(f, "equations of motion are for arms with at most three joints"),
             NoExercise::Masses => write!(
