@@ -21,5 +21,5 @@ pub use cell::{cell, decimals};
 pub use derivation::Derivation;
 pub use document::{Document, Figure, Part, Section, Table};
 pub use exercise::{Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise};
-pub use sections::{Errata, ReportOptions, Topic, report, reports};
+pub use sections::{Errata, Level, ReportOptions, Topic, report, reports};
 pub use words::ExerciseKind;
