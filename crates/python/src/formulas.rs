@@ -82,7 +82,7 @@ fn plain_text(section: &Section, language: Tongue) -> String {
 /// Blocks under a title as a document.
 fn of_blocks(title: String, names: Vocabulary, blocks: Vec<Block>) -> Document {
     let section = Section { names, parts: blocks.into_iter().map(Part::from).collect() };
-    Document { title, language: Tongue::English, sections: vec![section] }
+    Document { title, author: None, language: Tongue::English, sections: vec![section] }
 }
 
 /// The forward model.

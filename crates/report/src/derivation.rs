@@ -82,6 +82,38 @@ impl<'a> Derivation<'a> {
         })
     }
 
+    /// A point with these coordinates in the frame that the pose is of, in the frame that it is given in: R·x + p; of a free vector,
+    /// which has a direction and no place, R·x. Nothing if the matrix is not expanded.
+    pub fn image(&self, of: [Expr; 3], is_point: bool) -> Option<[Expr; 3]> {
+        let rows = self.model.matrix.as_ref().ok()?;
+        let last = Expr::int(i64::from(is_point));
+        let image = |row: &[Expr; 4]| {
+            let turned = (0..3).fold(Expr::int(0), |sum, k| sum + row[k] * of[k]);
+            turned + row[3] * last
+        };
+        Some([0, 1, 2].map(|r| image(&rows[r])))
+    }
+
+    /// What is said of a point, or of a free vector, and its coordinates in the other frame.
+    pub fn image_section(&self, of: [Expr; 3], is_point: bool, language: Tongue) -> Section {
+        let words = language.words();
+        let [from, to] = self.frames_in(words);
+        let mut section = Section::new(
+            of.iter()
+                .flat_map(|e| e.symbols())
+                .fold(self.description.vocabulary(), |v, s| v.symbol(&s.name())),
+        );
+        section.heading(2, Line::new(words.image_title(is_point)));
+        section.paragraph(words.image(is_point, of.map(Math::Expr), &from, &to));
+        if let Some(image) = self.image(of, is_point) {
+            let names = if is_point { ["px", "py", "pz"] } else { ["vx", "vy", "vz"] };
+            section.names = names.iter().fold(section.names, |v, name| v.symbol(name));
+            let equations = names.iter().zip(image).map(|(name, e)| Math::equation(Expr::symbol(name), e));
+            section.push(Part::Equations(equations.collect()));
+        }
+        section
+    }
+
     /// The matrix and its algorithm, a section each; headings have this level.
     pub fn sections(&self, level: u8, language: Tongue) -> [Section; 2] {
         let words = language.words();
@@ -138,7 +170,12 @@ impl<'a> Derivation<'a> {
         links.heading(2, Line::new(language.words().heading(Heading::Links)));
         links.push(transforms(&self.links));
         let [matrix, algorithm] = self.sections(2, language);
-        Document { title: self.description.name.clone(), language, sections: vec![links, matrix, algorithm] }
+        Document {
+            title: self.description.name.clone(),
+            author: None,
+            language,
+            sections: vec![links, matrix, algorithm],
+        }
     }
 }
 

@@ -75,5 +75,5 @@ fn jacobian(description: &Description) -> Document {
     section.heading(2, Line::new("Jacobian"));
     let below = blocks.into_iter().filter(|b| !matches!(b, Block::Heading(1, _)));
     section.parts.extend(below.map(Part::from));
-    Document { title: description.name.clone(), language, sections: vec![section] }
+    Document { title: description.name.clone(), author: None, language, sections: vec![section] }
 }

@@ -89,10 +89,16 @@ pub struct Derived {
     /// The orientation as angles, where a set was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orientation: Option<Angles>,
+    /// A point in the frame that the pose is given in, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<[String; 3]>,
     /// The robot's name.
     pub robot: String,
     /// The version.
     pub schema: Schema,
+    /// A free vector in that frame, where one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vector: Option<[String; 3]>,
 }
 
 /// An orientation as formulas of angles, where it is not singular.
@@ -183,8 +189,10 @@ impl Derived {
             joints: d.description.variables().iter().map(Joint::from).collect(),
             links: d.links.iter().map(rows).collect(),
             orientation: None,
+            point: None,
             robot: d.description.name.clone(),
             schema: Schema,
+            vector: None,
         }
     }
 }

@@ -34,6 +34,9 @@ pub struct Model {
     pub joint_rates: Option<Rates>,
     /// Whose velocity.
     pub of: String,
+    /// Lists of factors: all determinants are 0, too, where all of one list are; not there if there are too many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub others: Option<Vec<Vec<String>>>,
     /// Where its origin alone is singular, the orientation left aside: of arms with three joints at the most, if that is elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub point: Option<Point>,
@@ -202,6 +205,7 @@ impl Model {
             jacobian: matrix.map(|m| m.rows().map(|row| row.into_iter().map(text).collect())),
             joint_rates: None,
             of: frame(model.view.body),
+            others: None,
             point: None,
             proof: words().jacobian_proof(model.proof),
             robot: robot.into(),
@@ -242,9 +246,14 @@ impl Model {
         text: impl Fn(Expr) -> String + Copy,
     ) -> Self {
         Model {
+            always_singular: found.deficient.map(|rank| velocity::Obstacle::AlwaysSingular(rank).to_string()),
             complete: Some(found.is_complete),
             determinants: Some(found.minors.iter().map(|m| Determinant::of(m, text)).collect()),
             joint_rates: found.rates.as_ref().map(|rates| Rates::of(rates, text)),
+            others: found
+                .others
+                .as_ref()
+                .map(|sets| sets.iter().map(|set| set.iter().map(|&f| text(f)).collect()).collect()),
             point: point.map(|point| Point::of(point, text)),
             singularities: Some(found.common.iter().map(|s| Singularity::of(s, text)).collect()),
             ..Self::of(robot, &found.jacobian, text)

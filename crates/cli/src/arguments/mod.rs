@@ -18,7 +18,7 @@ pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
 pub use path::{PathArguments, PathFormat};
-pub use report::{ReportArguments, ReportFormat, ReportLanguage, SectionName};
+pub use report::{LevelName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
@@ -390,6 +390,12 @@ pub struct DeriveArguments {
     /// The frame whose pose to give: a number, `base` or `tool`
     #[arg(long, value_name = "FRAME", default_value = "tool")]
     pub to: String,
+    /// Coordinates `x, y, z` of a point in the frame --to, numbers or names: gives them in the frame --from, too
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub point: Option<String>,
+    /// The same of a free vector, which is turned and not shifted
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    pub vector: Option<String>,
     /// Parts for the algorithm to compute: x, y, z (columns), orientation, position; separated by commas
     #[arg(long, value_name = "PARTS", default_value = "all")]
     pub only: String,
@@ -426,8 +432,10 @@ pub enum Format {
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ConventionName {
     /// Rz(θ) Tz(d) Tx(a) Rx(α)
+    #[value(aliases = ["classic", "sdh", "distal"])]
     Standard,
-    /// Rx(α) Tx(a) Rz(θ) Tz(d)
+    /// Rx(α) Tx(a) Rz(θ) Tz(d), the modified one
+    #[value(aliases = ["modified", "mdh", "proximal"])]
     Craig,
     /// Rx(α) Tx(d) Rz(θ) Tz(r)
     Khalil,

@@ -17,6 +17,15 @@ pub struct ReportArguments {
     /// The format, if the ending does not say it
     #[arg(long, value_enum)]
     pub format: Option<ReportFormat>,
+    /// The title; one that names the robot otherwise
+    #[arg(long, value_name = "TITLE")]
+    pub title: Option<String>,
+    /// Who hands it in: stands below the title
+    #[arg(long, value_name = "AUTHOR")]
+    pub author: Option<String>,
+    /// How much it says
+    #[arg(long, value_enum, default_value = "full")]
+    pub level: LevelName,
     /// Only these sections, as in `--sections table,forward,inverse`
     #[arg(long, value_enum, value_delimiter = ',', value_name = "SECTIONS")]
     pub sections: Vec<SectionName>,
@@ -44,6 +53,15 @@ pub enum ReportFormat {
     Latex,
     /// Markdown with a folder of figures
     Markdown,
+}
+
+/// How much a report says.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LevelName {
+    /// The results: no worked example, no steps of derivations, no pictures of solutions and singularities
+    Short,
+    /// Everything
+    Full,
 }
 
 /// A language.

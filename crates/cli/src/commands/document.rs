@@ -33,7 +33,7 @@ pub fn document_in(
     // The page has its title.
     let parts = blocks.iter().filter(|b| !matches!(b, Block::Heading(1, _))).cloned().map(Part::from);
     let section = Section { names: names.clone(), parts: parts.collect() };
-    let document = Document { title: title.into(), language, sections: vec![section] };
+    let document = Document { title: title.into(), author: None, language, sections: vec![section] };
     written(&document, format)
 }
 

@@ -280,6 +280,10 @@ fn positions_of_arms_with_three_joints() {
     assert_eq!(asked(&["-p", "0.3,0.2,0.7", "--goal", "position"]).1, out);
     assert!(asked(&["-p", "0.3,0.2,0.7"]).2.contains("--position"));
     assert!(asked(&["-q", "0.3,0.4,0.5"]).2.contains("--position"));
+    let (_, out, _) = run(&["ik", "articulated-3r", "--explain"], "");
+    for said in ["One solution", "px = a2C1C2", "The position alone", "At most 4 solutions"] {
+        assert!(out.contains(said), "{said}: {out}");
+    }
     // An arm in a plane serves poses in the plane.
     assert!(!run(&["ik", "planar-3r"], "").1.contains("--position"));
     let (_, out, err) = run(&["jacobian", "articulated-3r", "--explain"], "");
@@ -336,4 +340,13 @@ fn families_are_named_and_bounded() {
     );
     let (_, out, _) = run(&["ik", "smart5-six-rail", "-q", "0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8"], "");
     assert!(out.contains("2 parameters"), "{out}");
+}
+
+/// A point is turned and shifted, a free vector turned alone.
+#[test]
+fn points_and_free_vectors() {
+    let (code, out, _) = run(&["derive", "planar-2r", "--point", "x, 0, 0", "--vector", "0, 1, 0"], "");
+    assert!(code == 0 && out.contains("px = C12x + (a1C1 + a2C12)") && out.contains("vx = −S12"), "{out}");
+    let (code, _, err) = run(&["derive", "planar-2r", "--point", "1, 2"], "");
+    assert!(code == 2 && err.contains("three coordinates"), "{code} {err}");
 }

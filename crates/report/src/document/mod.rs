@@ -19,6 +19,8 @@ use denavit_symbolic::vocabulary::Vocabulary;
 pub struct Document {
     /// The title, plain words.
     pub title: String,
+    /// Who hands it in, plain words.
+    pub author: Option<String>,
     /// The language of the words.
     pub language: Tongue,
     /// The parts, in order.
@@ -77,6 +79,14 @@ impl Document {
     /// Whether there are pictures in it.
     pub fn has_figures(&self) -> bool {
         self.sections.iter().flat_map(|s| &s.parts).any(|part| matches!(part, Part::Figure(_)))
+    }
+}
+
+impl Part {
+    /// Whether it introduces what follows: a page does not end between the two.
+    pub(crate) fn introduces(&self, next: Option<&Part>) -> bool {
+        let is_shown = |next: &Part| !matches!(next, Part::Block(Block::Paragraph(_) | Block::Heading(..)));
+        matches!(self, Part::Block(Block::Paragraph(_))) && next.is_some_and(is_shown)
     }
 }
 

@@ -164,6 +164,7 @@ impl<'a> Ground<'a> {
         let (kind, name, words) = (self.options.kind, &self.setting.description.name, self.words());
         let document = |title: String, sections: Vec<Section>| Document {
             title,
+            author: None,
             language: self.options.language,
             sections,
         };

@@ -3,7 +3,7 @@
 use crate::document::{Block, Factor, Line, Math, Proof, Sign};
 use crate::words::{Gain, Loss, Tongue, Wording};
 use denavit::description::{Description, Variable};
-use denavit::forward::Proof as Forward;
+use denavit::forward::{Proof as Forward, Reference};
 use denavit::quantity::reading;
 use denavit::robot::MissingValue;
 use denavit::velocity::{
@@ -27,14 +27,21 @@ pub fn jacobian_document(description: &Description, model: &JacobianModel, langu
     blocks
 }
 
-/// The matrix where it is shortest, its determinant in factors, and what happens at each singularity.
+/// The matrix at the hand in the base and where it is shortest, its determinant in factors, and what happens at each
+/// singularity.
 pub fn singularities_document(
     description: &Description,
     found: &Singularities,
     language: Tongue,
 ) -> Vec<Block> {
     let words = language.words();
-    let mut blocks = jacobian_document(description, &found.jacobian, language);
+    let mut blocks = vec![Block::Heading(1, Line::new(words.jacobian_title(&description.name)))];
+    let in_base = in_base(description, &found.jacobian, words);
+    if !in_base.is_empty() {
+        blocks.extend(in_base);
+        blocks.push(Block::Heading(2, Line::new(words.shortest_title())));
+    }
+    blocks.extend(matrix(&found.jacobian, words));
     blocks.push(paragraph(words.shortest()));
     blocks.push(Block::Heading(2, Line::new(words.determinant_title())));
     blocks.extend(determinants(found, &Factor::named("J"), words));
@@ -45,6 +52,25 @@ pub fn singularities_document(
     }
     blocks.extend(rates(found, words));
     blocks
+}
+
+/// The matrix that most books have, of the body at its own origin along the axes of the base, if that is not the shortest.
+fn in_base(description: &Description, shortest: &JacobianModel, words: &dyn Wording) -> Vec<Block> {
+    let body = shortest.view.body;
+    let view = Viewpoint::of(body, Reference::Base);
+    let is_same = shortest.view.axes == view.axes && shortest.view.at == view.at;
+    let model = JacobianModel::derive(description, view);
+    match model.matrix {
+        Ok(matrix) if !is_same => vec![
+            Block::Paragraph(words.viewpoint(view.body, view.at, None, view.axes)),
+            Block::Formula {
+                math: Math::Matrix(Factor::named("J"), matrix.rows().to_vec()),
+                number: None,
+                proof: (model.proof == Forward::Proved).then_some(Proof::Proved),
+            },
+        ],
+        _ => vec![],
+    }
 }
 
 /// The linear rows of a Jacobian.
@@ -82,8 +108,14 @@ fn places(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
         blocks.push(Block::Heading(3, Line::new(format!("{}. ", k + 1)).math(vanishing(s.factor))));
         blocks.push(Block::List(remarks(&found.jacobian.view, s, words)));
     }
-    if !found.is_complete {
-        blocks.push(paragraph(words.besides()));
+    match &found.others {
+        Some(sets) if !sets.is_empty() => {
+            blocks.push(paragraph(words.besides_where()));
+            let line = |set: &Vec<Expr>| Line::default().list(set.iter().map(|&f| vanishing(f)));
+            blocks.push(Block::List(sets.iter().map(line).collect()));
+        }
+        Some(_) => {}
+        None => blocks.push(paragraph(words.besides())),
     }
     blocks
 }
@@ -152,7 +184,7 @@ fn paragraph(words: String) -> Block {
 fn rates(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
     let Some(rates) = &found.rates else { return vec![] };
     let mut blocks = vec![Block::Heading(2, Line::new(words.rates_title()))];
-    blocks.push(paragraph(words.rates(rates.steps.len() != 3)));
+    blocks.push(paragraph(words.rates(rates.blocks)));
     for (name, value) in &rates.steps {
         let math = Math::equation(Expr::symbol(name), *value);
         blocks.push(Block::Formula { math, number: None, proof: rates.is_proved.then_some(Proof::Proved) });
@@ -195,18 +227,25 @@ fn determinants(found: &Singularities, matrix: &Factor, words: &dyn Wording) -> 
     let of_joints = |m: &Minor| m.rows.len() == found.rows.len();
     let part = |m: &Minor| {
         let rows: Vec<&str> = m.rows.iter().map(|&r| ROWS[r]).collect();
+        if found.deficient.is_some() {
+            return paragraph(words.minor_of_both(&rows, &m.joints));
+        }
         paragraph(match of_joints(m) {
             true => words.minor_of_joints(&m.joints),
             false => words.minor_of_rows(&rows),
         })
     };
-    if let [whole] = &found.minors[..] {
+    if let ([whole], None) = (&found.minors[..], found.deficient) {
         // Joints that do not move the body are in no part.
         let shown = if of_joints(whole) { None } else { Some(part(whole)) };
         return shown.into_iter().chain([formula(whole)]).collect();
     }
     let has_surplus = found.minors.first().is_some_and(of_joints);
-    let mut blocks = vec![paragraph(words.several_determinants(has_surplus, found.rows.len()))];
+    let why = match found.deficient {
+        Some(rank) => words.always_singular(rank),
+        None => words.several_determinants(has_surplus, found.rows.len()),
+    };
+    let mut blocks = vec![paragraph(why)];
     for m in &found.minors {
         blocks.push(part(m));
         blocks.push(formula(m));

@@ -26,6 +26,8 @@ pub fn page(document: &Document) -> String {
 pub fn page_with(document: &Document, font: &str) -> String {
     let language = document.language.words().code();
     let title = escaped(&document.title);
+    let author = document.author.as_deref();
+    let author = author.map_or_else(String::new, |a| format!("<p class=\"author\">{}</p>\n", escaped(a)));
     let mut writer = Writer {
         out: String::new(),
         contents: vec![],
@@ -41,7 +43,7 @@ pub fn page_with(document: &Document, font: &str) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"generator\" content=\"denavit {}\"/>\n<title>{title}</title>\n<style>\n\
          @font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n\
-         {LOOK}{}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n",
+         {LOOK}{}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{author}",
         env!("CARGO_PKG_VERSION"),
         style()
     );

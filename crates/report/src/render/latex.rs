@@ -33,7 +33,7 @@ pub fn whole(document: &Document) -> String {
     let mut out = format!(
         "% Made by denavit {}.\n\\documentclass[10pt,a4paper]{{article}}\n\
          \\usepackage[margin=2.2cm]{{geometry}}\n\\usepackage{{amsmath,amssymb,longtable,tikz}}\n\
-         \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\setlength{{\\parindent}}{{0pt}}\n\\setlength{{\\parskip}}{{4pt}}\n\\sloppy\n",
+         \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\setlength{{\\parindent}}{{0pt}}\n\\setlength{{\\parskip}}{{4pt}}\n\\sloppy\n\\makeatletter\\@beginparpenalty=10000\\makeatother\n",
         env!("CARGO_PKG_VERSION")
     );
     // Without a package for it: most installations have none but for English.
@@ -43,8 +43,9 @@ pub fn whole(document: &Document) -> String {
     }
     let _ = writeln!(
         out,
-        "\\title{{{}}}\n\\date{{}}\n\\author{{}}\n\\begin{{document}}\n\\maketitle\n",
-        escaped(&document.title)
+        "\\title{{{}}}\n\\date{{}}\n\\author{{{}}}\n\\begin{{document}}\n\\maketitle\n",
+        escaped(&document.title),
+        escaped(document.author.as_deref().unwrap_or_default())
     );
     for section in &document.sections {
         parts(section, "", &mut out);
@@ -53,8 +54,11 @@ pub fn whole(document: &Document) -> String {
 }
 
 fn parts(section: &Section, star: &str, out: &mut String) {
-    for part in &section.parts {
+    for (k, part) in section.parts.iter().enumerate() {
         match part {
+            Part::Block(Block::Paragraph(line)) if part.introduces(section.parts.get(k + 1)) => {
+                let _ = writeln!(out, "\n\\noindent {}\\par\\nobreak", words(line, &section.names));
+            }
             Part::Block(of) => block(of, &section.names, star, out),
             Part::Equations(all) => equations(all, &section.names, out),
             Part::Beside(all) => beside(all, section, star, out),

@@ -30,6 +30,9 @@ pub fn whole(document: &Document, folder: &str) -> Markdown {
         folder,
         said: document.language.words(),
     };
+    if let Some(author) = &document.author {
+        let _ = writeln!(writer.out, "{}\n", escaped(author));
+    }
     for section in &document.sections {
         writer.section(section);
     }

@@ -57,8 +57,13 @@ pub fn whole(document: &Document) -> String {
     let _ = writeln!(
         out,
         "#set text(lang: \"{language}\")\n#set document(title: {title}, date: none)\n\
-         #align(center, text(1.75em, weight: \"bold\", hyphenate: false, par(justify: false, {title})))\n#v(0.6em)\n"
+         #align(center, text(1.75em, weight: \"bold\", hyphenate: false, par(justify: false, {title})))"
     );
+    if let Some(author) = &document.author {
+        let author = quoted(author);
+        let _ = writeln!(out, "#set document(author: {author})\n#align(center, text(1.1em, {author}))");
+    }
+    out.push_str("#v(0.6em)\n\n");
     for section in &document.sections {
         parts(section, 1, &mut out);
     }
@@ -67,8 +72,12 @@ pub fn whole(document: &Document) -> String {
 
 /// `up` is taken from the level of headings.
 fn parts(section: &Section, up: u8, out: &mut String) {
-    for part in &section.parts {
+    for (k, part) in section.parts.iter().enumerate() {
         match part {
+            Part::Block(Block::Paragraph(line)) if part.introduces(section.parts.get(k + 1)) => {
+                let _ =
+                    writeln!(out, "#block(sticky: true, spacing: 0.95em)[{}]\n", words(line, &section.names));
+            }
             Part::Block(of) => block(of, &section.names, up, out),
             Part::Equations(all) => equations(all, &section.names, out),
             Part::Beside(all) => beside(all, section, up, out),

@@ -1,7 +1,7 @@
 //! Inverse kinematics: the derivation, and the solutions at the example.
 
 use super::example::{numbers, plain};
-use super::setting::Setting;
+use super::setting::{Level, Setting};
 use crate::document::{Block, Line, Part, Section, Table};
 use crate::explain::Explanation;
 use crate::figure::{FigureOptions, isometric};
@@ -19,7 +19,9 @@ const SIZE: [f64; 2] = [108.0, 112.0];
 /// The derivation and the example.
 pub fn sections(s: &Setting) -> Vec<Section> {
     let mut all = vec![derivation(s)];
-    all.extend(solutions(s));
+    if s.options.level == Level::Full {
+        all.extend(solutions(s));
+    }
     all
 }
 
@@ -33,7 +35,14 @@ fn derivation(s: &Setting) -> Section {
     let mut section = Section::new(names);
     section.heading(2, Line::new(s.words().heading(Heading::Inverse)));
     match (explained, s.inverse()) {
-        (Some(e), _) => lowered(e.document(s.options.language), s.words(), &mut section),
+        (Some(e), _) => {
+            let language = s.options.language;
+            let blocks = match s.options.level {
+                Level::Full => e.document(language),
+                Level::Short => e.summary(language),
+            };
+            lowered(blocks, s.words(), &mut section);
+        }
         (None, Err(why)) => section.paragraph(Line::new(s.words().refused(why))),
         (None, Ok(_)) => {}
     }

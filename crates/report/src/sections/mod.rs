@@ -17,7 +17,7 @@ mod workspace;
 pub(crate) use example::numbers;
 pub(crate) use inverse::within_turns;
 pub(crate) use setting::Setting;
-pub use setting::{Errata, ReportOptions, Topic};
+pub use setting::{Errata, Level, ReportOptions, Topic};
 pub(crate) use table::{ends, rows, values};
 
 use crate::document::{Document, Section};
@@ -68,6 +68,7 @@ fn document(setting: &Setting) -> Document {
         };
         made
     });
-    let title = setting.words().title(&setting.description.name);
-    Document { title, language: options.language, sections: sections.collect() }
+    let title = options.title.clone().unwrap_or_else(|| setting.words().title(&setting.description.name));
+    let author = options.author.clone();
+    Document { title, author, language: options.language, sections: sections.collect() }
 }

@@ -61,11 +61,36 @@ impl Topic {
     ];
 }
 
+/// How much a report says.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Level {
+    /// The results: no worked example, no steps of derivations, no pictures of solutions and singularities.
+    Short,
+    /// Everything.
+    #[default]
+    Full,
+}
+
+impl Level {
+    /// The sections that it has where nobody chooses them.
+    pub fn topics(self) -> Vec<Topic> {
+        let is_left_out =
+            |t: &Topic| matches!(t, Topic::Links | Topic::Example | Topic::Workspace | Topic::References);
+        Topic::ALL.into_iter().filter(|t| self == Level::Full || !is_left_out(t)).collect()
+    }
+}
+
 /// What a report contains.
 #[derive(Clone, Debug)]
 pub struct ReportOptions<'a> {
     /// The language of the words.
     pub language: Tongue,
+    /// The title; one that names the robot otherwise.
+    pub title: Option<String>,
+    /// Who hands it in.
+    pub author: Option<String>,
+    /// How much is said in the sections.
+    pub level: Level,
     /// The sections.
     pub topics: Vec<Topic>,
     /// Conventions in which the table is shown beside its own.
@@ -80,6 +105,9 @@ impl Default for ReportOptions<'_> {
     fn default() -> Self {
         ReportOptions {
             language: Tongue::English,
+            title: None,
+            author: None,
+            level: Level::Full,
             topics: Topic::ALL.to_vec(),
             conventions: vec![],
             pose: None,

@@ -55,6 +55,7 @@ fn inverse(s: &Setting) -> Line {
 fn singularities(s: &Setting) -> Line {
     let is_long = |e: Expr| print(e, &s.description.vocabulary(), Style::Latex).len() >= LONG;
     s.words().factors(match s.singular() {
+        Ok(found) if found.deficient.is_some() => Factors::Everywhere,
         Ok(found) if found.common.is_empty() && found.is_complete => Factors::None,
         Ok(found) if found.common.is_empty() => Factors::NotShared,
         Ok(found) if found.common.iter().any(|one| is_long(one.factor)) => Factors::Long,

@@ -1,7 +1,7 @@
 //! The Jacobian, its determinant, and a picture of each singularity.
 
 use super::inverse::lowered;
-use super::setting::Setting;
+use super::setting::{Level, Setting};
 use crate::document::{Line, Math, Part, Section};
 use crate::explain::{found_singularities_document, singularities_document, velocity_vocabulary};
 use crate::figure::{FigureOptions, isometric};
@@ -26,7 +26,9 @@ pub fn sections(s: &Setting) -> Vec<Section> {
                 &mut section,
             );
             let mut all = vec![section];
-            all.extend(pictures(s, found));
+            if s.options.level == Level::Full {
+                all.extend(pictures(s, found));
+            }
             all
         }
         Err(why) => {

@@ -251,6 +251,12 @@ pub trait Report {
     /// Before the frames of a forward model.
     fn forward_title(&self) -> String;
 
+    /// The heading of a point, or of a free vector, in another frame.
+    fn image_title(&self, is_point: bool) -> String;
+
+    /// Before its coordinates in one frame, what they are in the other; the frames by their names.
+    fn image(&self, is_point: bool, of: [Math; 3], from: &str, to: &str) -> Line;
+
     /// That a matrix is not printed.
     fn long_matrix(&self) -> String;
 

@@ -2,7 +2,7 @@
 
 use crate::tree::{Line, Math};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{Obstacle, Place, Still};
+use denavit::velocity::{Blocks, Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -52,6 +52,9 @@ pub trait Velocity {
     /// That the matrix is shortest as it is shown.
     fn shortest(&self) -> String;
 
+    /// The heading of the matrix where it is shortest, behind the one in the base.
+    fn shortest_title(&self) -> String;
+
     /// The heading of determinants.
     fn determinant_title(&self) -> String;
 
@@ -60,6 +63,12 @@ pub trait Velocity {
 
     /// Before the determinant with some joints (from 0).
     fn minor_of_joints(&self, joints: &[usize]) -> String;
+
+    /// That the rank is never more than this, and what the determinants are that follow.
+    fn always_singular(&self, rank: usize) -> String;
+
+    /// Before the determinant of some rows and joints (from 0).
+    fn minor_of_both(&self, rows: &[&str], joints: &[usize]) -> String;
 
     /// Before the determinant of some rows.
     fn minor_of_rows(&self, rows: &[&str]) -> String;
@@ -72,6 +81,9 @@ pub trait Velocity {
 
     /// That all determinants may be 0 at once besides.
     fn besides(&self) -> String;
+
+    /// Before lists of what is 0 at once where all determinants are 0, too, and nowhere else.
+    fn besides_where(&self) -> String;
 
     /// The heading of what is said of the body's origin alone.
     fn point_title(&self) -> String;
@@ -97,8 +109,8 @@ pub trait Velocity {
     /// The heading of joint velocities.
     fn rates_title(&self) -> String;
 
-    /// How joint velocities follow: for three joints, or for three and a wrist.
-    fn rates(&self, has_wrist: bool) -> String;
+    /// How joint velocities follow from the blocks of the Jacobian.
+    fn rates(&self, blocks: Blocks) -> String;
 
     /// What must not be 0.
     fn different(&self, all: Vec<Math>) -> Line;

@@ -37,7 +37,12 @@ fn document(words: &str) -> Document {
     section
         .push(Part::Figure(Figure { pictures: vec![(drawing(), line()), (drawing(), line())], ..figure() }));
     section.push(Part::Code(words.into()));
-    Document { title: words.into(), language: Tongue::English, sections: vec![section] }
+    Document {
+        title: words.into(),
+        author: Some(format!("{words}a")),
+        language: Tongue::English,
+        sections: vec![section],
+    }
 }
 
 /// Words made of what means something in one of the formats.

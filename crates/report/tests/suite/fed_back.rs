@@ -66,7 +66,12 @@ const EXPLAINED: [&str; 6] =
 
 fn of_blocks(names: Vocabulary, blocks: Vec<Block>) -> Document {
     let section = Section { names, parts: blocks.into_iter().map(Part::from).collect() };
-    Document { title: "What is derived".into(), language: Tongue::English, sections: vec![section] }
+    Document {
+        title: "What is derived".into(),
+        author: None,
+        language: Tongue::English,
+        sections: vec![section],
+    }
 }
 
 /// The forward model, the closed form and the singularities, each step by step.

@@ -13,9 +13,9 @@ use denavit::motion::hand::Stretch;
 use denavit::motion::plan::{Course, Held, Timing, TimingLaw, Verdict};
 use denavit::motion::profile::Law;
 use denavit::structure::{NearlySpecial, Relation, Special};
-use denavit::velocity::{JacobianModel, Obstacle, Place, Singularities, Still};
+use denavit::velocity::{Blocks, JacobianModel, Obstacle, Place, Singularities, Still};
 use denavit_program::Count;
-use denavit_report::document::{Block, Branch, Line, Math, Piece, math};
+use denavit_report::document::{Block, Branch, Line, Math, Piece, math, plain};
 use denavit_report::explain::{
     Bound, Component, Consequence, Explanation, Kind, Remark, jacobian_document, singularities_document,
 };
@@ -346,6 +346,16 @@ fn rare_words() {
     ] {
         both(&|w| w.task(task));
     }
+    for is_point in [true, false] {
+        both(&|w| w.image_title(is_point));
+        let coordinates = [1, 2, 3].map(|n| Math::Expr(denavit_symbolic::Expr::int(n)));
+        both(&|w| plain(&w.image(is_point, coordinates.clone(), "0", "3"), &Vocabulary::new()));
+    }
+    for blocks in [Blocks::Point, Blocks::Wrist, Blocks::Rows] {
+        both(&|w| w.rates(blocks));
+    }
+    both(&|w| w.always_singular(5));
+    both(&|w| w.minor_of_both(&["vx", "wz"], &[0, 3]));
     for place in [
         Place::OneLine(3, 5),
         Place::OnePlane(vec![1, 2, 3]),

@@ -1,6 +1,7 @@
 //! Tests of documents and figures, one program.
 
 mod checked;
+mod conditions;
 mod escape;
 mod exercise;
 mod exercise_marks;

@@ -4,7 +4,7 @@ use denavit::catalogue;
 use denavit::description::{Convention, Description};
 use denavit_report::document::{Block, Branch, Line, math, plain};
 use denavit_report::words::Tongue;
-use denavit_report::{Document, Part, ReportOptions, Topic, render, report, reports};
+use denavit_report::{Document, Level, Part, ReportOptions, Topic, render, report, reports};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -287,4 +287,68 @@ fn matrices_of_long_numbers_are_written() {
     for written in [render::html(&document), render::latex(&document), render::typst(&document)] {
         assert!(written.len() > 1_000);
     }
+}
+
+/// A title and an author of one's own, in every format, their signs escaped.
+#[test]
+fn title_and_author() {
+    let d = description("planar-2r");
+    let (title, author) = ("Exercise <3> & more".to_string(), "A. Student_1".to_string());
+    let options = ReportOptions {
+        title: Some(title.clone()),
+        author: Some(author.clone()),
+        topics: vec![Topic::Table],
+        ..ReportOptions::default()
+    };
+    let document = report(&d, &options);
+    assert_eq!((&document.title, document.author.as_ref()), (&title, Some(&author)));
+    let html = render::html(&document);
+    assert!(html.contains("<h1>Exercise &lt;3&gt; &amp; more</h1>") && html.contains(&author), "{html}");
+    assert!(render::latex(&document).contains("\\author{A. Student\\_1}"));
+    assert!(render::typst(&document).contains("#set document(author: \"A. Student_1\")"));
+    assert!(render::markdown(&document, "f").text.contains("Student"));
+}
+
+/// The short report has the results and none of the steps; what it does have is in the full one.
+#[test]
+fn the_short_level_has_results_alone() {
+    for name in ["staubli-rx90", "articulated-3r"] {
+        let d = description(name);
+        let of = |level: Level| {
+            let options = ReportOptions { level, topics: level.topics(), ..ReportOptions::default() };
+            outline(&report(&d, &options))
+        };
+        let (short, full) = (of(Level::Short), of(Level::Full));
+        let lines = |text: &str| text.lines().count();
+        assert!(lines(&short) < lines(&full) * 3 / 4, "{name}: {} {}", lines(&short), lines(&full));
+        assert!(!short.contains("¶ Type ") && full.contains("¶ Type "), "{name}");
+        let joints = d.variables().len();
+        for j in 1..=joints {
+            assert!(short.lines().any(|l| l.starts_with(&format!("= q{j} = "))), "{name}: q{j}");
+        }
+        let formulas = |text: &str| -> Vec<String> {
+            text.lines()
+                .filter(|l| l.starts_with("= J = ") || l.starts_with("= det J"))
+                .map(String::from)
+                .collect()
+        };
+        assert_eq!(formulas(&short), formulas(&full), "{name}");
+    }
+}
+
+/// No page ends between a sentence and what it introduces: LaTeX and Typst are told so wherever that is the case.
+#[test]
+fn a_sentence_stays_with_what_it_introduces() {
+    let document = report(&description("puma560"), &ReportOptions::default());
+    let mut introduced = 0;
+    for section in &document.sections {
+        for pair in section.parts.windows(2) {
+            let is_said = matches!(&pair[0], Part::Block(Block::Paragraph(_)));
+            let is_text = matches!(&pair[1], Part::Block(Block::Paragraph(_) | Block::Heading(..)));
+            introduced += usize::from(is_said && !is_text);
+        }
+    }
+    assert!(introduced > 20, "{introduced}");
+    assert_eq!(render::latex(&document).matches("\\par\\nobreak\n").count(), introduced);
+    assert_eq!(render::typst(&document).matches("#block(sticky: true, spacing").count(), introduced);
 }

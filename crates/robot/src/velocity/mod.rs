@@ -21,7 +21,7 @@ pub use analytic::{AnalyticJacobian, analytic, determinant, rates};
 pub use derivatives::{hessian_program, rate_program};
 pub(crate) use geometric::of_tool;
 pub use geometric::{Jacobian, ROWS, Viewpoint, geometric};
-pub use inverse::{REST, RateFormulas};
+pub use inverse::{Blocks, REST, RateFormulas};
 pub use measures::{Block, Measures, RANK, Whole, measures};
 pub use model::JacobianModel;
 pub use nearest::{NearestSingularity, nearest_singularity};

@@ -204,7 +204,7 @@ fn tables_say_what_is_wrong_with_them() {
 
 #[test]
 fn tables_in_every_dress_are_the_same_robot() {
-    let expected = "name = \"table\"\nconvention = \"craig\"\n\n[parameters]\na1 = \"0.45 m\"\n\n[[joints]]\ntheta = \"q1\"\n\
+    let expected = "name = \"RRP arm\"\nconvention = \"craig\"\n\n[parameters]\na1 = \"0.45 m\"\n\n[[joints]]\ntheta = \"q1\"\n\
                     d = \"0.3 m\"\nlimits = [\"-170 deg\", \"170 deg\"]\n\n[[joints]]\nalpha = \"-90 deg\"\na = \"a1\"\n\
                     theta = \"q2 + 90 deg\"\n\n[[joints]]\nalpha = \"90 deg\"\nd = \"q3 + 0.1 m\"\n";
     let craig = told(Convention::Craig);

@@ -7,6 +7,12 @@ import { close, enter, farthest, openRobot, read, scenario, shared, tab, until }
 const time = (page) => page.getByRole("slider", { name: "Time on the path" });
 const clock = async (page) => read((await page.locator(".clock").textContent()).split("s")[0]);
 
+/** The clock once what has happened is drawn: the click's frame has gone, and the one that it asked for. */
+async function shownNow(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return clock(page);
+}
+
 async function plan(page) {
   await page.getByRole("button", { name: /^Plan/ }).click();
   await page.getByRole("button", { name: "Play", exact: true }).waitFor();
@@ -63,7 +69,7 @@ scenario("two way-points are planned, played and scrubbed, and saved as numbers"
   const frames = await page.evaluate(() => window.denavit.frames);
   await until(async () => (await clock(page)) > 0.1 * times.at(-1), "time goes on");
   await page.getByRole("button", { name: "Pause" }).click();
-  const held = await clock(page);
+  const held = await shownNow(page);
   assert.ok((await page.evaluate(() => window.denavit.frames)) > frames + 1, "the scene moves");
   const at = (seconds) => {
     const k = Math.max(1, times.findIndex((t) => t >= seconds));

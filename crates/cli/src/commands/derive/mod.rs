@@ -7,7 +7,7 @@ use crate::commands::{certificate, document};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::words;
-use denavit::description::Description;
+use denavit::description::{Description, Measure};
 use denavit::forward::{Outputs, Proof, Reference};
 use denavit::geometry::Rotation;
 use denavit::geometry::orientation::{OrientationSet, extraction_formulas};
@@ -29,7 +29,13 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
     let outputs: Outputs = arguments.only.parse().map_err(|e| Failure::Usage(format!("--only: {e}")))?;
     let derivation = Derivation::new(&description, from, to, outputs);
     let format = if arguments.json { Format::Json } else { arguments.format };
-    write!(anstream::stdout(), "{}", printed(&derivation, format))?;
+    let images = [(&arguments.point, true, "--point"), (&arguments.vector, false, "--vector")];
+    let images: Vec<([Expr; 3], bool)> = images
+        .into_iter()
+        .filter_map(|(text, is_point, option)| Some((coordinates(text.as_deref()?, option), is_point)))
+        .map(|(found, is_point)| Ok((found?, is_point)))
+        .collect::<Result<_, Failure>>()?;
+    write!(anstream::stdout(), "{}", printed(&derivation, &images, format))?;
     let certified = match &arguments.certificate {
         Some(file) => {
             certificate::write(file, denavit_certificate::forward(&description, &derivation.model, outputs))
@@ -94,12 +100,45 @@ pub fn reference(d: &Description, text: &str, option: &str) -> Result<Reference,
     }
 }
 
-fn printed(derivation: &Derivation, format: Format) -> String {
+/// Three lengths, or names of such.
+fn coordinates(text: &str, option: &str) -> Result<[Expr; 3], Failure> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [x, y, z] = parts[..] else {
+        return Err(Failure::Usage(format!("{option} {text}: three coordinates x, y, z")));
+    };
+    let is_name = |part: &str| {
+        part.starts_with(|c: char| c.is_alphabetic()) && part.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    let read = |part: &str| match is_name(part) {
+        true => Ok(Expr::symbol(part)),
+        false => {
+            load::value_of(part, Measure::Length).map_err(|why| Failure::Usage(format!("{option}: {why}")))
+        }
+    };
+    Ok([read(x)?, read(y)?, read(z)?])
+}
+
+fn printed(derivation: &Derivation, images: &[([Expr; 3], bool)], format: Format) -> String {
+    let sections =
+        images.iter().map(|(of, is_point)| derivation.image_section(*of, *is_point, Tongue::English));
     match format {
-        Format::Terminal => terminal::document(derivation),
-        Format::Json => format!("{}\n", denavit_wire::text(&Derived::of(derivation))),
+        Format::Terminal => {
+            let shown = sections.map(|section| terminal::section(&section));
+            terminal::whole(derivation) + &shown.collect::<String>()
+        }
+        Format::Json => {
+            let found = |wanted: bool| {
+                let (of, is_point) = images.iter().find(|image| image.1 == wanted)?;
+                let image = derivation.image(*of, *is_point)?;
+                Some(image.map(|e| derivation.text(e, Style::Ascii)))
+            };
+            let derived = Derived { point: found(true), vector: found(false), ..Derived::of(derivation) };
+            format!("{}\n", denavit_wire::text(&derived))
+        }
         Format::Latex | Format::Typst | Format::Html | Format::Markdown => {
-            document::written(&derivation.document(Tongue::English), format)
+            let mut document = derivation.document(Tongue::English);
+            document.sections.extend(sections);
+            document::written(&document, format)
         }
     }
 }

@@ -1,10 +1,13 @@
 //! The derivation for a terminal.
 
+use crate::arguments::Format;
+use crate::commands::document;
 use crate::commands::show::{dh_table, title};
 use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width, raised, styled, words};
 use denavit::geometry::orientation::OrientationSet;
 use denavit_program::COUNTING_RULE;
-use denavit_report::Derivation;
+use denavit_report::document::{Block, Math};
+use denavit_report::{Derivation, Part, Section};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use std::fmt::Write;
@@ -13,7 +16,7 @@ use std::fmt::Write;
 const WIDTH: usize = 110;
 
 /// Table, link transforms, forward model and algorithm.
-pub fn document(d: &Derivation) -> String {
+pub fn whole(d: &Derivation) -> String {
     let mut text = title(d.description) + &dh_table(d.description);
     let _ = writeln!(text, "\n{}", styled("Link transforms", HEADING));
     for (i, link) in d.links.iter().enumerate() {
@@ -57,6 +60,23 @@ pub fn angles(d: &Derivation, set: OrientationSet, all: &[(&'static str, Expr)])
         let _ = writeln!(text, "  {} = {}", styled(name, NAME), d.text(*value, Style::Unicode));
     }
     text + &format!("  {}\n", styled("where the middle angle does not make it singular", FAINT))
+}
+
+/// A section with words and equations.
+pub fn section(section: &Section) -> String {
+    let mut blocks = vec![];
+    for part in &section.parts {
+        match part {
+            Part::Block(block) => blocks.push(block.clone()),
+            Part::Equations(all) => {
+                let formula = |math: &Math| Block::Formula { math: math.clone(), number: None, proof: None };
+                blocks.extend(all.iter().map(formula));
+            }
+            _ => {}
+        }
+    }
+    let text = document::document("", &section.names, &blocks, Format::Terminal);
+    if text.starts_with('\n') { text } else { format!("\n{text}") }
 }
 
 /// The simplified model.

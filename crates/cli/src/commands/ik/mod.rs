@@ -16,12 +16,13 @@ use denavit::Robot;
 use denavit::description::{Description, JointKind};
 use denavit::idealise::{Ideal, idealised};
 use denavit::inverse::{
-    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Task, Unprepared,
+    Criterion, Goal, InverseKinematics, InverseModel, InverseOptions, Refusal, Unprepared,
 };
 use denavit::quantity::reading;
 use denavit_report::document::Block;
 use denavit_report::explain::Explanation;
 use denavit_report::words::Tongue;
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_wire::derivation::Derivation;
 use denavit_wire::inverse::Refused;
 use std::io::Write;
@@ -53,8 +54,11 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
             Ok(model) => model,
             Err(refusal) => return Err(refused(arguments, &description, &refusal)?),
         };
-        write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model)))?;
-        also_by_position(arguments, &description, &options, model.task)?;
+        let position = Explanation::of_its_position(&model);
+        write!(anstream::stdout(), "{}", printed(arguments, &Explanation::of(&model), position.as_ref()))?;
+        if (arguments.json || arguments.format != Format::Terminal) && position.is_some() {
+            note(BY_POSITION);
+        }
         return match &arguments.certificate {
             Some(file) => certificate::write(file, denavit_certificate::inverse(&model)),
             None => Ok(()),
@@ -117,29 +121,6 @@ pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
     if answer.is_reachable() { Ok(()) } else { Err(Failure::No(answer::obstacle(&description, answer))) }
 }
 
-/// The position problem beside the pose problem, for an arm that serves positions: its formulas in a summary, else a hint.
-fn also_by_position(
-    arguments: &IkArguments,
-    description: &Description,
-    options: &InverseOptions,
-    task: Task,
-) -> Result<(), Failure> {
-    if options.goal != Goal::Pose || task != Task::Position {
-        return Ok(());
-    }
-    let is_summary =
-        !(arguments.json || arguments.explain || arguments.symbolic) && arguments.format == Format::Terminal;
-    let of_position = InverseOptions { goal: Goal::Position, ..options.clone() };
-    match InverseModel::derive(description, &of_position) {
-        Ok(model) if is_summary => {
-            let text = summary::text(&Explanation::of(&model));
-            writeln!(anstream::stdout(), "\nThe position alone (`--position`):\n\n{}", text.trim_end())?;
-        }
-        _ => note(BY_POSITION),
-    }
-    Ok(())
-}
-
 /// Said of an arm that serves positions.
 const BY_POSITION: &str =
     "note: this arm has the freedoms of a position, not of a pose: `--position` asks for that alone";
@@ -175,17 +156,32 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
     Ok(ideal)
 }
 
-fn printed(arguments: &IkArguments, e: &Explanation) -> String {
+/// The derivation, or its formulas; on a terminal those of the position alone behind it, if there are any.
+fn printed(arguments: &IkArguments, e: &Explanation, position: Option<&Explanation>) -> String {
     let format = if arguments.json { Format::Json } else { arguments.format };
     let title = format!("Inverse kinematics of the {}", e.description.name);
-    let written = |blocks: &[Block]| document::document(&title, &e.names(), blocks, format);
+    let language = Tongue::English;
+    let written = |blocks: &[Block], names: &Vocabulary| document::document(&title, names, blocks, format);
+    let position = position.filter(|_| format == Format::Terminal);
+    let names = position.map_or_else(|| e.names(), |p| e.names_with(p));
     match (format, arguments.explain, arguments.symbolic) {
         (Format::Json, ..) => format!("{}\n", denavit_wire::text(&Derivation::of(e))),
-        (_, true, _) => written(&e.document(Tongue::English)),
-        (_, _, true) => written(&e.summary(Tongue::English)),
-        (Format::Terminal, ..) => summary::text(e),
+        (_, true, _) => {
+            let whole = position.map_or_else(|| e.document(language), |p| e.document_with(p, language));
+            written(&whole, &names)
+        }
+        (_, _, true) => {
+            let formulas = position.map_or_else(|| e.summary(language), |p| e.summary_with(p, language));
+            written(&formulas, &names)
+        }
+        (Format::Terminal, ..) => {
+            let alone = |p: &Explanation| {
+                format!("\nThe position alone (`--position`):\n\n{}\n", summary::text(p).trim_end())
+            };
+            summary::text(e) + &position.map(alone).unwrap_or_default()
+        }
         // A format was asked for: the formulas.
-        (_, false, false) => written(&e.summary(Tongue::English)),
+        (_, false, false) => written(&e.summary(language), &names),
     }
 }
 
@@ -206,7 +202,7 @@ fn refused(
         None if arguments.json => writeln!(out, "{}", denavit_wire::text(&Refused::of(description, &why)))?,
         Some(stuck) => {
             let explanation = Explanation::of_stuck(description, stuck, arguments.goal());
-            write!(out, "{}", printed(arguments, &explanation))?;
+            write!(out, "{}", printed(arguments, &explanation, None))?;
         }
         None => {}
     }

@@ -6,14 +6,14 @@ mod embedded;
 mod installed;
 mod pdf;
 
-use crate::arguments::{ReportArguments, ReportFormat, SectionName};
+use crate::arguments::{LevelName, ReportArguments, ReportFormat, SectionName};
 use crate::commands::fk::configuration;
 use crate::failure::Failure;
 use crate::load;
 use denavit::description::Description;
 use denavit_check::{Checked, check};
 use denavit_reading::document::{Format, readable};
-use denavit_report::{Document, Errata, ReportOptions, Topic, render, report};
+use denavit_report::{Document, Errata, Level, ReportOptions, Topic, render, report};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -32,6 +32,9 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
         source.as_ref().map(|(text, checked)| Errata { name: &arguments.robot.robot, text, checked });
     let options = ReportOptions {
         language: arguments.language.tongue(),
+        title: arguments.title.clone(),
+        author: arguments.author.clone(),
+        level: level(arguments),
         topics: topics(arguments),
         conventions: arguments.conventions.iter().map(|&c| c.into()).collect(),
         pose,
@@ -45,9 +48,16 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     write(&document, format, &arguments.output)
 }
 
+fn level(arguments: &ReportArguments) -> Level {
+    match arguments.level {
+        LevelName::Short => Level::Short,
+        LevelName::Full => Level::Full,
+    }
+}
+
 fn topics(arguments: &ReportArguments) -> Vec<Topic> {
     match &arguments.sections[..] {
-        [] => Topic::ALL.to_vec(),
+        [] => level(arguments).topics(),
         some => some.iter().map(|&s| s.into()).collect(),
     }
 }

@@ -54,14 +54,19 @@ fn by_hand(e: &Exercise) -> impl Iterator<Item = &Question> {
 fn asked(e: &Exercise, question: &Question) -> String {
     let mut section = Section::new(question.names.clone());
     section.push(Part::Block(Block::Paragraph(question.words.clone())));
-    let document = Document { title: "-".into(), language: e.options.language, sections: vec![section] };
+    let document =
+        Document { title: "-".into(), author: None, language: e.options.language, sections: vec![section] };
     body(&document).text.trim().to_string()
 }
 
 /// The answer to a task, in Markdown.
 fn answer(e: &Exercise, question: &Question) -> String {
-    let document =
-        Document { title: "-".into(), language: e.options.language, sections: question.answer.clone() };
+    let document = Document {
+        title: "-".into(),
+        author: None,
+        language: e.options.language,
+        sections: question.answer.clone(),
+    };
     body(&document).text
 }
 

@@ -19,8 +19,8 @@ use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{
-    Condition, Equations, Form, Goal, InverseModel, Length, Motion, Norm, NormalChain, Split, Step, Stuck,
-    Task, Unknown, axis_unknown, equations, settled,
+    Condition, Equations, Form, Goal, InverseModel, InverseOptions, Length, Motion, Norm, NormalChain, Split,
+    Step, Stuck, Task, Unknown, axis_unknown, equations, settled,
 };
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -167,6 +167,32 @@ impl Explanation {
     /// The document.
     pub fn document(&self, language: Tongue) -> Vec<Block> {
         written::document(self, language.words())
+    }
+
+    /// The document with the problem of the position behind that of the pose; its names are [`names_with`](Self::names_with).
+    pub fn document_with(&self, position: &Explanation, language: Tongue) -> Vec<Block> {
+        written::with_position(self, position, language.words())
+    }
+
+    /// The formulas alone of both problems.
+    pub fn summary_with(&self, position: &Explanation, language: Tongue) -> Vec<Block> {
+        written::formulas_with_position(self, position, language.words())
+    }
+
+    /// The names that the formulas of both use.
+    pub fn names_with(&self, position: &Explanation) -> Vocabulary {
+        position.names().declared().fold(self.names(), |names, name| names.symbol(name))
+    }
+
+    /// The problem of the position alone, where an arm is one for positions: it has three joints at the most, each of which
+    /// moves its hand's origin.
+    pub fn of_its_position(model: &InverseModel) -> Option<Explanation> {
+        if model.goal != Goal::Pose || model.description.variables().len() > 3 || !model.given.is_empty() {
+            return None;
+        }
+        let options = InverseOptions { goal: Goal::Position, ..InverseOptions::default() };
+        let position = InverseModel::derive(&model.description, &options).ok()?;
+        (position.rank == model.rank).then(|| Explanation::of(&position))
     }
 
     /// The formulas alone, to be computed one after another.

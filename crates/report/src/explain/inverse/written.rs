@@ -30,6 +30,29 @@ pub fn document(e: &Explanation, words: &dyn Wording) -> Vec<Block> {
     blocks
 }
 
+/// The problem of the position behind that of the pose, under headings one level lower.
+pub fn with_position(pose: &Explanation, position: &Explanation, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = document(pose, words);
+    blocks.extend(below(document(position, words), words));
+    blocks
+}
+
+/// The same, formulas alone.
+pub fn formulas_with_position(pose: &Explanation, position: &Explanation, words: &dyn Wording) -> Vec<Block> {
+    let mut blocks = formulas(pose, words);
+    blocks.extend(below(formulas(position, words), words));
+    blocks
+}
+
+fn below(blocks: Vec<Block>, words: &dyn Wording) -> impl Iterator<Item = Block> {
+    let title = Line::new(words.point_title());
+    blocks.into_iter().map(move |block| match block {
+        Block::Heading(1, _) => Block::Heading(2, title.clone()),
+        Block::Heading(_, line) => Block::Heading(3, line),
+        other => other,
+    })
+}
+
 fn title(e: &Explanation, words: &dyn Wording) -> Block {
     Block::Heading(1, Line::new(words.inverse_title(&e.description.name)))
 }

@@ -1,7 +1,7 @@
 //! The sections of a report.
 
 use super::{English, counted};
-use crate::tree::Line;
+use crate::tree::{Line, Math};
 use crate::words::report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};
 use crate::words::{Inverse, Terms};
 use denavit::description::{Convention, JointKind};
@@ -270,6 +270,19 @@ impl Report for English {
 
     fn forward_title(&self) -> String {
         "Forward model ".into()
+    }
+
+    fn image_title(&self, is_point: bool) -> String {
+        if is_point { "A point in the other frame" } else { "A free vector in the other frame" }.into()
+    }
+
+    fn image(&self, is_point: bool, of: [Math; 3], from: &str, to: &str) -> Line {
+        let (what, how) = match is_point {
+            true => ("point", "it is turned and shifted (a fourth coordinate 1)"),
+            false => ("vector", "it is turned and not shifted (a fourth coordinate 0)"),
+        };
+        let line = Line::new(format!("The {what} (")).list(of);
+        line.text(format!(") of frame {to} has in frame {from} these coordinates: {how}."))
     }
 
     fn long_matrix(&self) -> String {

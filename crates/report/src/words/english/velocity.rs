@@ -4,7 +4,7 @@ use super::English;
 use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{Obstacle, Place, Still};
+use denavit::velocity::{Blocks, Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -37,6 +37,10 @@ impl Velocity for English {
             .into()
     }
 
+    fn shortest_title(&self) -> String {
+        "Where it is shortest".into()
+    }
+
     fn determinant_title(&self) -> String {
         "Determinant".into()
     }
@@ -58,6 +62,18 @@ impl Velocity for English {
         format!("Joints {}:", plain(joints))
     }
 
+    fn always_singular(&self, rank: usize) -> String {
+        format!(
+            "The rank is {rank} at the most: in every configuration the hand lacks a direction, and some joints can move while it \
+             stands still. The rank is less still where the determinants with all choices of {rank} rows and {rank} joints are 0. \
+             Those that are 0 everywhere are left out."
+        )
+    }
+
+    fn minor_of_both(&self, rows: &[&str], joints: &[usize]) -> String {
+        format!("Rows {}, joints {}:", rows.join(", "), plain(joints))
+    }
+
     fn minor_of_rows(&self, rows: &[&str]) -> String {
         format!("Rows {}:", rows.join(", "))
     }
@@ -77,6 +93,10 @@ impl Velocity for English {
 
     fn besides(&self) -> String {
         "Besides, the arm is singular where all of the determinants above are 0 at once.".into()
+    }
+
+    fn besides_where(&self) -> String {
+        "The determinants are 0 at once, too, where all that stands in one of these lines is 0, and nowhere else:".into()
     }
 
     fn point_title(&self) -> String {
@@ -176,10 +196,14 @@ impl Velocity for English {
         "Joint velocities for a twist".into()
     }
 
-    fn rates(&self, has_wrist: bool) -> String {
-        match has_wrist {
-            false => "The linear rows give the velocities of the three joints.",
-            true => {
+    fn rates(&self, blocks: Blocks) -> String {
+        match blocks {
+            Blocks::Point => "The linear rows give the velocities of the three joints.",
+            Blocks::Rows => {
+                "Rows in which as many joints are open as there are of them give these joints, one such block after the \
+                 other. ux to rz are what the joints before leave of vx to wz."
+            }
+            Blocks::Wrist => {
                 "The last three joints do not move the point: the linear rows give the velocities of the first three \
                  joints. rx, ry and rz are what these leave of the angular velocity for the others."
             }

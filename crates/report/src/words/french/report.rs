@@ -1,7 +1,7 @@
 //! The sections of a report.
 
 use super::{French, counted, printed, set};
-use crate::tree::Line;
+use crate::tree::{Line, Math};
 use crate::words::report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};
 use crate::words::{Inverse, Terms};
 use denavit::description::{Convention, JointKind};
@@ -269,6 +269,22 @@ impl Report for French {
 
     fn forward_title(&self) -> String {
         "Modèle géométrique direct ".into()
+    }
+
+    fn image_title(&self, is_point: bool) -> String {
+        match is_point {
+            true => say!("Un point dans l'autre repère"),
+            false => say!("Un vecteur libre dans l'autre repère"),
+        }
+    }
+
+    fn image(&self, is_point: bool, of: [Math; 3], from: &str, to: &str) -> Line {
+        let (what, how) = match is_point {
+            true => ("Le point", "il tourne et se déplace (quatrième coordonnée 1)"),
+            false => ("Le vecteur", "il tourne sans se déplacer (quatrième coordonnée 0)"),
+        };
+        let line = Line::new(format!("{what} (")).list(of);
+        line.text(say!(") du repère {to} a dans le repère {from} ces coordonnées : {how}."))
     }
 
     fn long_matrix(&self) -> String {

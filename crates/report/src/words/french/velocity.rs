@@ -4,7 +4,7 @@ use super::{French, printed};
 use crate::tree::{Line, Math};
 use crate::words::{Gain, Loss, Terms, Velocity};
 use denavit::forward::{Proof, Reference};
-use denavit::velocity::{MAX_JOINTS, Obstacle, Place, Still};
+use denavit::velocity::{Blocks, MAX_JOINTS, Obstacle, Place, Still};
 use denavit_program::Count;
 use denavit_symbolic::Refusal;
 
@@ -40,6 +40,10 @@ impl Velocity for French {
         )
     }
 
+    fn shortest_title(&self) -> String {
+        say!("Là où elle est la plus courte")
+    }
+
     fn determinant_title(&self) -> String {
         "Déterminant".into()
     }
@@ -62,6 +66,18 @@ impl Velocity for French {
         say!("Articulations {} :", plain(joints))
     }
 
+    fn always_singular(&self, rank: usize) -> String {
+        say!(
+            "Le rang vaut au plus {rank} : dans toutes les configurations, il manque une direction à l'organe terminal, et des \
+             articulations peuvent bouger sans qu'il bouge. Le rang est encore plus petit là où les déterminants de tous les choix \
+             de {rank} lignes et {rank} articulations sont nuls. Ceux qui sont nuls partout ne sont pas écrits."
+        )
+    }
+
+    fn minor_of_both(&self, rows: &[&str], joints: &[usize]) -> String {
+        say!("Lignes {}, articulations {} :", rows.join(", "), plain(joints))
+    }
+
     fn minor_of_rows(&self, rows: &[&str]) -> String {
         say!("Lignes {} :", rows.join(", "))
     }
@@ -80,6 +96,13 @@ impl Velocity for French {
 
     fn besides(&self) -> String {
         say!("De plus, le bras est singulier là où tous les déterminants ci-dessus s'annulent à la fois.")
+    }
+
+    fn besides_where(&self) -> String {
+        say!(
+            "Les déterminants sont aussi nuls tous à la fois là où tout ce qui est écrit sur une de ces lignes est nul, et nulle \
+             part ailleurs :"
+        )
     }
 
     fn point_title(&self) -> String {
@@ -190,10 +213,16 @@ impl Velocity for French {
         "Vitesses articulaires pour un torseur cinématique donné".into()
     }
 
-    fn rates(&self, has_wrist: bool) -> String {
-        printed(match has_wrist {
-            false => "Les lignes de la vitesse linéaire donnent les vitesses des trois articulations.",
-            true => {
+    fn rates(&self, blocks: Blocks) -> String {
+        printed(match blocks {
+            Blocks::Point => {
+                "Les lignes de la vitesse linéaire donnent les vitesses des trois articulations."
+            }
+            Blocks::Rows => {
+                "Des lignes qui contiennent autant d'articulations inconnues qu'il y a de lignes donnent ces articulations, un bloc \
+                 après l'autre. ux à rz sont ce que les articulations déjà connues laissent de vx à wz."
+            }
+            Blocks::Wrist => {
                 "Les trois dernières articulations ne déplacent pas le point : les lignes de la vitesse linéaire donnent les \
                  vitesses des trois premières. rx, ry et rz sont ce que celles-ci laissent de la vitesse angulaire aux \
                  autres."

@@ -274,7 +274,11 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
             ..cells.row(variable)
         })
         .collect();
-    let name = lines.value("name", at).or(lines.title(at)).unwrap_or("table");
+    // Without a name it is called by its joints: RRP arm.
+    let letters_of_joints =
+        variables.iter().flatten().map(|v| if v.kind == JointKind::Revolute { 'R' } else { 'P' });
+    let unnamed = || letters_of_joints.chain(" arm".chars()).collect();
+    let name = lines.value("name", at).or(lines.title(at)).map_or_else(unnamed, String::from);
     let moves = joints.iter().filter_map(|j| match j {
         Joint::Moves(_, name) => Some(name.clone()),
         Joint::Fixed => None,
@@ -286,7 +290,7 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
         along_z: letters.z.map(Role::letter),
         previous: told_columns[0].iter().any(|c| Some(c.role) == letters.x && c.previous),
         description: Description {
-            name: name.to_string(),
+            name,
             source: None,
             convention: letters.convention,
             parameters,

@@ -377,7 +377,7 @@ impl Solving<'_> {
 
     /// What a condition is missed by, lengths by the size.
     fn relative(&self, c: &NumericCondition, miss: f64, pose: &Transform<f64>) -> f64 {
-        if c.degree > 0 { miss.abs() / self.size(pose) } else { miss.abs() }
+        miss.abs() / self.size(pose).powi(i32::from(c.degree))
     }
 
     /// The conditions that a pose does not meet, by joint variables that come near.

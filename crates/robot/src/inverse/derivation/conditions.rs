@@ -1,13 +1,14 @@
 //! What a pose must meet so that an arm with fewer than six degrees of freedom can take it, and what such an arm is for.
 //!
 //! An equation without unknowns that no step needs is a condition: it holds for the poses of the arm and for no others.
-//! Of all of them those are kept that are short and independent, as many as the arm lacks degrees of freedom.
+//! So is, where cosine and sine of an angle come from two equations, that their squares add up to 1. Of all of them those are kept that are short and independent, as many as the arm lacks degrees of freedom.
 
 use super::algebra::{Algebra, Kind};
 use super::chain::{Motion, NormalChain};
 use super::equations::{Equation, Source, constant};
 use super::known::{Known, Samples, Unknown};
-use super::plan::Step;
+use super::plan::{Form, Step};
+use super::tangent::Tangent;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
 use rustc_hash::FxHashSet;
@@ -15,8 +16,6 @@ use rustc_hash::FxHashSet;
 /// A condition on the pose, in its entries and in what the steps before it find.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// Where it comes from.
-    pub source: Source,
     /// pose side − chain side, which must vanish.
     pub zero: Poly,
     /// The side with the entries of the pose.
@@ -25,7 +24,7 @@ pub struct Condition {
     pub chain: Poly,
     /// Behind which step everything in it is known (0: it holds entries of the pose alone).
     pub behind: usize,
-    /// The dimension: 0 for a rotation, 1 for a length.
+    /// The dimension: 0 for a rotation, 1 for a length, 2 for the square of one.
     pub degree: u8,
 }
 
@@ -78,39 +77,44 @@ pub fn conditions(
     let used: FxHashSet<Source> =
         steps.iter().flat_map(|s| s.origins.iter().flat_map(|o| o.sources())).collect();
     let mut known = Known::new(chain, given);
-    let mut candidates: Vec<Condition> = vec![];
+    let mut candidates: Vec<(Option<Source>, Condition)> = vec![];
     for behind in 0..=steps.len() {
         for e in equations {
-            let is_new = !candidates.iter().any(|c| c.source == e.source);
+            let is_new = !candidates.iter().any(|c| c.0 == Some(e.source));
             if is_new && !used.contains(&e.source) && known.unknowns(chain, &e.atoms).is_empty() {
-                candidates.push(Condition {
-                    source: e.source,
-                    zero: e.zero.clone(),
-                    pose: e.pose.clone(),
-                    chain: e.chain.clone(),
-                    behind,
-                    degree: e.degree,
-                });
+                let (zero, pose, chain) = (e.zero.clone(), e.pose.clone(), e.chain.clone());
+                let condition = Condition { zero, pose, chain, behind, degree: e.degree };
+                candidates.push((Some(e.source), condition));
             }
         }
         if let Some(step) = steps.get(behind) {
             known.learn(step.unknown);
         }
     }
-    // Independent of each other as functions of the pose. A row of gradients by the 12 entries of the pose, with what the
-    // steps find held, and with the tangents of rotations only; steps that move with the pose are covered by taking
-    // conditions of different steps.
-    let directions = samples.pose_directions();
+    candidates
+        .extend(steps.iter().enumerate().filter_map(|(k, s)| Some((None, on_the_circle(chain, s, k)?))));
+    // Independent of each other as functions of the pose: gradients along the six ways in which a pose can move, with what the
+    // steps find moving along.
+    let mut tangents: Vec<Tangent> = vec![];
+    let directions: Vec<Vec<Vec<f64>>> = {
+        tangents.extend(samples.pose_directions().map(|d| Tangent::new(chain, samples, given, d)));
+        let mut all = vec![tangents.iter().map(Tangent::direction).collect()];
+        for step in steps {
+            tangents.iter_mut().for_each(|t| t.learn(step));
+            all.push(tangents.iter().map(Tangent::direction).collect());
+        }
+        all
+    };
     let mut chosen: Vec<Condition> = vec![];
     let mut basis: Vec<Vec<f64>> = vec![];
     // An entry that is ±1 is so at its largest or smallest, where it has no gradient: it says which of two signs.
     let mut signs: Vec<Condition> = vec![];
-    for c in candidates {
+    for (source, c) in candidates {
         let is_full = chosen.len() == lacking;
-        let mut row: Vec<f64> = directions.iter().map(|d| samples.derivative(&c.zero, d)).collect();
+        let mut row: Vec<f64> = directions[c.behind].iter().map(|d| samples.derivative(&c.zero, d)).collect();
         let length = norm(&row);
-        if length <= 1e-9 * samples.size(&c.zero) {
-            let gives = equations.iter().find(|e| e.source == c.source).and_then(constant);
+        if length <= 1e-8 * samples.size(&c.zero) {
+            let gives = equations.iter().find(|e| Some(e.source) == source).and_then(constant);
             if gives.is_some_and(|(_, x, _)| x.abs() == Rational::ONE) {
                 signs.push(c);
             }
@@ -134,6 +138,30 @@ pub fn conditions(
     chosen
 }
 
+/// That the cosine and the sine that a step takes from two equations belong to one angle.
+fn on_the_circle(chain: &NormalChain, step: &Step, behind: usize) -> Option<Condition> {
+    let ([x, y], Form::Pair { .. }) = (&step.rows[..], &step.form) else { return None };
+    if !(x.c.squares.is_empty() && y.c.squares.is_empty()) {
+        return None;
+    }
+    let a = &chain.algebra;
+    let sum = |p: &Poly, q: &Poly| a.square(p).plus(&a.square(q));
+    let cross = |p: &Poly, q: &Poly, r: &Poly, s: &Poly| a.times(p, q).minus(&a.times(r, s));
+    let product = a.times(&x.a, &y.a).plus(&a.times(&x.b, &y.b));
+    let is_turned = product.is_zero() && sum(&x.a, &x.b) == sum(&y.a, &y.b);
+    let (pose, chain, times) = match is_turned {
+        // The rows turn the direction and scale it.
+        true => (sum(&x.c.plus, &y.c.plus), sum(&x.a, &x.b), 1),
+        // Cramer's rule.
+        false => {
+            let (cosine, sine) =
+                (cross(&x.c.plus, &y.b, &x.b, &y.c.plus), cross(&x.a, &y.c.plus, &x.c.plus, &y.a));
+            (sum(&cosine, &sine), a.square(&cross(&x.a, &y.b, &x.b, &y.a)), 2)
+        }
+    };
+    Some(Condition { zero: pose.minus(&chain), pose, chain, behind, degree: times * (x.degree + y.degree) })
+}
+
 fn norm(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
@@ -143,7 +171,7 @@ fn norm(v: &[f64]) -> f64 {
 pub struct NumericCondition {
     /// The condition in words of formulas: `S1·px − C1·py = 0`.
     pub text: String,
-    /// The dimension: 0 for a rotation, 1 for a length.
+    /// The dimension: 0 for a rotation, 1 for a length, 2 for the square of one.
     pub degree: u8,
     terms: Vec<(f64, Vec<(Factor, i32)>)>,
 }
@@ -221,23 +249,20 @@ impl NumericCondition {
 
 impl Samples {
     /// Six directions in which the first sample's pose can move: three turns, three shifts, as changes of its entries.
-    pub(crate) fn pose_directions(&self) -> Vec<[f64; 12]> {
+    pub(crate) fn pose_directions(&self) -> [[f64; 12]; 6] {
         let atoms = self.first();
-        let mut found = vec![];
+        let mut found = [[0.0; 12]; 6];
         for axis in 0..3 {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-            let mut d = [0.0; 12];
+            let d = &mut found[axis];
             for column in 0..3 {
                 // e × column
                 d[i * 4 + column] = -atoms[j * 4 + column];
                 d[j * 4 + column] = atoms[i * 4 + column];
             }
-            found.push(d);
         }
         for axis in 0..3 {
-            let mut d = [0.0; 12];
-            d[axis * 4 + 3] = self.length();
-            found.push(d);
+            found[3 + axis][axis * 4 + 3] = self.length();
         }
         found
     }
@@ -247,8 +272,8 @@ impl Samples {
         Algebra::value_and_size(p, self.first()).1
     }
 
-    /// The derivative of a polynomial along a change of the pose's entries, at the first sample.
-    pub fn derivative(&self, p: &Poly, direction: &[f64; 12]) -> f64 {
+    /// The derivative of a polynomial along a change of the atoms, at the first sample.
+    pub fn derivative(&self, p: &Poly, direction: &[f64]) -> f64 {
         const STEP: f64 = 1e-6;
         let at = |h: f64| {
             let mut atoms = self.first().to_vec();

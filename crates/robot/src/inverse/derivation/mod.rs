@@ -15,6 +15,7 @@ mod rounding;
 mod screen;
 mod search;
 mod sign;
+mod tangent;
 mod terms;
 
 pub use algebra::{Algebra, Kind, MOST_WORK};

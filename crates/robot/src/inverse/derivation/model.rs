@@ -487,6 +487,9 @@ fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
     let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
     let ends_turning = n >= 5 && chain.axes[n - 3..].iter().all(|a| a.motion != Motion::Slide);
     let wrist = if ends_turning { n - if n == 5 { 2 } else { 3 } } else { n };
+    // Three axes that meet, and nothing else.
+    let is_wrist_alone = n == 3 && turns.len() == 3 && steps.iter().all(|s| s.degree == 0);
+    let slides_next = |k: usize| chain.axes.get(k + 1).is_some_and(|a| a.motion == Motion::Slide);
     let mut used: Vec<Part> = vec![];
     steps
         .iter()
@@ -505,10 +508,12 @@ fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
             let spans_wrist = last >= wrist && (first >= wrist || last - first >= 2);
             let part = if matches!(step.unknown, Unknown::Slide(_)) {
                 Part::Reach
-            } else if spans_wrist {
+            } else if spans_wrist || is_wrist_alone {
                 Part::Wrist
             } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line))
                 || turns.len() >= 7 && turns[..3].contains(&last)
+                // What carries a slide points the arm: there is no elbow.
+                || matches!(step.form, Form::Line) && slides_next(last)
             {
                 Part::Shoulder
             } else {

@@ -124,7 +124,7 @@ impl Follower {
         let factor = |expr: Expr| Factor { expr, program: program(description, expr) };
         Ok(Follower {
             inverse,
-            is_complete: found.as_ref().is_some_and(|f| f.is_complete),
+            is_complete: found.as_ref().is_some_and(|f| f.is_complete && f.deficient.is_none()),
             factors: found.map(|f| f.common.iter().map(|s| factor(s.factor)).collect()),
             parameters: description.known_values(),
         })

@@ -20,26 +20,43 @@ pub struct Minor {
 /// Terms of a determinant beyond which nobody reads its factors.
 const MOST_TERMS: usize = 1_000;
 
-/// The largest square parts of some rows whose determinants are not identically 0; none if all are. Joints that do not move
-/// the body at all are left out.
+/// The largest square parts of some rows whose determinants are not identically 0, those with one row and one joint less where
+/// the largest are all 0; none if these are, too. Joints that do not move the body at all are left out.
 pub fn all(matrix: &Jacobian<Expr>, allowed: &[usize], order: &[Symbol]) -> Result<Vec<Minor>, Refusal> {
     let moving = moving(matrix, allowed);
     let n = moving.len();
-    let size = n.min(allowed.len());
+    let most = n.min(allowed.len());
     let entries: Vec<Expr> = matrix.columns.iter().flatten().copied().collect();
     let mut ring = Ring::new(&entries, order);
     let mut rows: Vec<Vec<Poly>> = vec![];
     for row in matrix.rows() {
         rows.push(row.into_iter().map(|e| ring.polynomial(e)).collect::<Result<_, _>>()?);
     }
+    for size in (most.saturating_sub(1).max(1)..=most).rev() {
+        let minors = of_size(&mut ring, &rows, (allowed, &moving), size, order)?;
+        if !minors.is_empty() {
+            return Ok(minors);
+        }
+    }
+    Ok(vec![])
+}
+
+/// The square parts with so many rows and joints whose determinants are not identically 0.
+fn of_size(
+    ring: &mut Ring,
+    rows: &[Vec<Poly>],
+    (allowed, moving): (&[usize], &[usize]),
+    size: usize,
+    order: &[Symbol],
+) -> Result<Vec<Minor>, Refusal> {
     let mut minors = vec![];
     for chosen in subsets(allowed.len(), size) {
         let chosen: Vec<usize> = chosen.into_iter().map(|r| allowed[r]).collect();
-        for joints in subsets(n, size) {
+        for joints in subsets(moving.len(), size) {
             let joints: Vec<usize> = joints.into_iter().map(|j| moving[j]).collect();
             let part: Vec<Vec<&Poly>> =
                 chosen.iter().map(|&r| joints.iter().map(|&j| &rows[r][j]).collect()).collect();
-            let p = determinant(&mut ring, part)?;
+            let p = determinant(ring, part)?;
             if p.terms().len() > MOST_TERMS {
                 return Err(Refusal::TooLarge);
             }

@@ -23,7 +23,7 @@ use crate::space::JointSpace;
 use denavit_symbolic::factor::{Factored, Zero, zeros};
 use denavit_symbolic::{Expr, Refusal};
 use std::fmt;
-use together::{Known, never_all_zero};
+use together::{Known, never_all_zero, zero_at_once};
 
 /// Joints beyond which minors are not expanded.
 pub const MAX_JOINTS: usize = 8;
@@ -35,7 +35,7 @@ pub enum Obstacle {
     TooLarge(Refusal),
     /// More joints than [`MAX_JOINTS`].
     ManyJoints(usize),
-    /// The body has fewer freedoms than joints in every configuration: so many at most.
+    /// The body has fewer freedoms than joints in every configuration, by more than one: so many at most.
     AlwaysSingular(usize),
 }
 
@@ -65,11 +65,17 @@ pub struct Singularities {
     /// The largest square parts that are not identically 0. With six joints the determinant itself; with fewer, of some
     /// rows; with more, of some joints. The arm is singular where all of them are 0.
     pub minors: Vec<Minor>,
+    /// The rank where the arm is not singular, if it is one less than rows and joints allow: a direction is lost in every
+    /// configuration, and the minors have one row and one joint less.
+    pub deficient: Option<usize>,
     /// The factors that all minors share, each a singularity of its own.
     pub common: Vec<Singularity>,
     /// Whether it is proved that the minors have no common zeros beside: there is a single one, nothing is left of one, or what
     /// is left of all is never 0 at once (lengths that are named and have no value are taken to be other than 0).
     pub is_complete: bool,
+    /// Where the minors are 0 at once beside: each list of factors that are all 0, and nowhere else; nothing if there are too many
+    /// such lists, none if the common factors are all.
+    pub others: Option<Vec<Vec<Expr>>>,
     /// The joint velocities for a twist as formulas, where they are short.
     pub rates: Option<RateFormulas>,
 }
@@ -93,7 +99,8 @@ pub struct Singularity {
 pub struct Example {
     /// The configuration.
     pub q: Vec<f64>,
-    /// A motion of the joints that leaves at rest what is asked for, the largest component 1 or −1 (radians, metres).
+    /// Motions of the joints that leave at rest what is asked for, the largest component 1 or −1 (radians, metres); none where
+    /// other joints move elsewhere on the singularity.
     pub free: Vec<Vec<f64>>,
     /// What is at rest then.
     pub still: Still,
@@ -166,8 +173,10 @@ impl Singularities {
         let Some(first) = minors.first() else {
             let moved = |&&r: &&usize| matrix.columns.iter().any(|c| !c[r].is_zero());
             let bound = rows.iter().filter(moved).count();
-            return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(1).min(bound)));
+            return Err(Obstacle::AlwaysSingular(minors::rank(matrix, rows).saturating_sub(2).min(bound)));
         };
+        let size = first.rows.len();
+        let deficient = (size < minors::rank(matrix, rows)).then_some(size);
         let shared: Vec<(Expr, u32)> = first
             .determinant
             .factors
@@ -181,7 +190,10 @@ impl Singularities {
             factors.filter(|&&(f, n)| n > own(f) && varies(description, f)).map(|f| f.0).collect()
         };
         let products: Vec<Vec<Expr>> = minors.iter().map(left).collect();
-        let is_complete = products.iter().any(Vec::is_empty) || {
+        let all: Vec<Expr> = shared.iter().map(|s| s.0).collect();
+        let others = if products.iter().any(Vec::is_empty) {
+            Some(vec![])
+        } else {
             let variables = description.variables().iter().map(|v| v.symbol).collect();
             let known = Known { variables, values: description.known_values() };
             // A length in front of one may be 0 with the values of the robot: that one says nothing.
@@ -189,10 +201,10 @@ impl Singularities {
             let counts = |m: &Minor| !m.determinant.factors.iter().any(|f| vanishes(f.0));
             let sure: Vec<Vec<Expr>> =
                 minors.iter().zip(products).filter(|(m, _)| counts(m)).map(|m| m.1).collect();
-            never_all_zero(&sure, &known)
+            if never_all_zero(&sure, &known) { Some(vec![]) } else { zero_at_once(&sure, &all, &known) }
         };
+        let is_complete = others.as_ref().is_some_and(Vec::is_empty);
         let finder = sample::Finder::new(description);
-        let all: Vec<Expr> = shared.iter().map(|s| s.0).collect();
         let common = shared
             .iter()
             .map(|&(factor, power)| {
@@ -201,15 +213,32 @@ impl Singularities {
                     Some(example(description, &robot, &jacobian.view, rows, q))
                 };
                 let example = at(None).map(|found| {
-                    let others = finder.starts(OTHERS);
-                    let is_so = others.iter().filter_map(|q| at(Some(q))).all(|other| found.is_like(&other));
-                    Example { place: if is_so { found.place } else { Place::Differs }, ..found }
+                    let others: Vec<Example> =
+                        finder.starts(OTHERS).iter().filter_map(|q| at(Some(q))).collect();
+                    if others.iter().all(|other| found.is_like(other)) {
+                        return found;
+                    }
+                    // Which joints move is not the same everywhere then.
+                    let places: Vec<&Place> = others.iter().chain([&found]).map(|e| &e.place).collect();
+                    match Place::shared(&places) {
+                        Some(place) => Example { place, free: vec![], ..found },
+                        None => Example { place: Place::Differs, ..found },
+                    }
                 });
                 Singularity { factor, power, zeros: zeros(factor), example }
             })
             .collect();
         let rates = RateFormulas::derive(description, &jacobian).map_err(Obstacle::TooLarge)?;
-        Ok(Singularities { jacobian, rows: rows.to_vec(), minors, common, is_complete, rates })
+        Ok(Singularities {
+            jacobian,
+            rows: rows.to_vec(),
+            minors,
+            deficient,
+            common,
+            is_complete,
+            others,
+            rates,
+        })
     }
 }
 
@@ -252,9 +281,12 @@ fn example(
     for column in &mut jacobian.columns {
         (0..6).filter(|r| !rows.contains(r)).for_each(|r| column[r] = 0.0);
     }
-    // Joints that do not move the body are free in every configuration.
-    let moving: Vec<usize> =
-        (0..q.len()).filter(|&j| jacobian.columns[j].iter().any(|x| *x != 0.0)).collect();
+    // Joints that do not move the body are free in every configuration: here, and anywhere else.
+    let elsewhere: Vec<f64> = q.iter().enumerate().map(|(j, x)| x + 0.6 + 0.2 * j as f64).collect();
+    let there = geometric(robot, &elsewhere, &view);
+    let moves =
+        |&j: &usize| [&whole_body, &there].iter().any(|at| rows.iter().any(|&r| at.columns[j][r] != 0.0));
+    let moving: Vec<usize> = (0..q.len()).filter(moves).collect();
     let part = Jacobian { columns: moving.iter().map(|&j| jacobian.columns[j]).collect() };
     let is_angle: Vec<bool> = moving.iter().map(|&j| space.is_angle[j]).collect();
     let whole = Whole::new(&part, &is_angle, length);

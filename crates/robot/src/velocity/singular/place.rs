@@ -88,7 +88,11 @@ impl Place {
         let [free] = free else {
             return match free.first() {
                 None => Place::Lost,
-                Some(_) => Place::SelfMotion { joints: moving(&free.concat(), q.len()), still },
+                Some(_) => {
+                    let joints = moving(&free.concat(), q.len());
+                    let on = (still == Still::Point).then(|| on_axis(robot, body, q, &joints)).flatten();
+                    on.map_or(Place::SelfMotion { joints, still }, Place::PointOnAxis)
+                }
             };
         };
         let support = moving(free, q.len());
@@ -100,6 +104,17 @@ impl Place {
             Still::Point => Self::of_point(origin(robot, body, q)?, &axes, &support, size),
         });
         found.unwrap_or(Place::SelfMotion { joints: support, still })
+    }
+
+    /// What is so at all of some configurations: a point on an axis lies in one plane with it and any parallel one, too.
+    pub fn shared(places: &[&Self]) -> Option<Self> {
+        let plane = places.iter().find(|p| matches!(p, Place::PointInPlane { .. }))?;
+        let Place::PointInPlane { axes, parallel: true } = plane else { return None };
+        let is_in_it = |p: &&Self| match p {
+            Place::PointOnAxis(j) => axes.contains(j),
+            other => *other == *plane,
+        };
+        places.iter().all(is_in_it).then(|| (*plane).clone())
     }
 
     /// Where a point that stands still lies though the joints of the support turn.
@@ -172,6 +187,13 @@ fn line(robot: &Robot<f64>, body: Reference, q: &[f64], axes: &[Axis], size: f64
         if is_parallel { parallel.push(j) } else { meets.push(j) }
     }
     Some(Place::Line { meets, parallel })
+}
+
+/// The axis, among those of some joints, on which the body's origin lies.
+fn on_axis(robot: &Robot<f64>, body: Reference, q: &[f64], joints: &[usize]) -> Option<usize> {
+    let (p, axes) = (origin(robot, body, q)?, axes(robot, q)?);
+    let near = TOUCH * robot.reach().max(1e-9);
+    joints.iter().copied().find(|&j| axes[j].turns && distance(p, &axes[j]) < near)
 }
 
 /// The origin of a body.

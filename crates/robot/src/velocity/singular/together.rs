@@ -33,6 +33,61 @@ pub fn never_all_zero(products: &[Product], known: &Known) -> bool {
     angles.into_iter().all(is_whole) && known.is_refuted(products.to_vec(), &mut cases)
 }
 
+/// Sets of factors of which one is 0 as a whole where all of the products are 0: a factor of each product, none that another
+/// set does without. Sets that are never 0 at once are left out, and those with one of the `apart`; nothing if there are too many.
+pub fn zero_at_once(products: &[Product], apart: &[Expr], known: &Known) -> Option<Vec<Vec<Expr>>> {
+    // What nobody reads is not listed.
+    if products.concat().iter().any(|f| Expr::postorder(&[*f]).len() > LONG) {
+        return None;
+    }
+    let mut sets: Vec<Vec<Expr>> = vec![vec![]];
+    for product in products {
+        let (met, open): (Vec<_>, Vec<_>) =
+            sets.into_iter().partition(|set| product.iter().any(|f| set.contains(f)));
+        sets = met;
+        for set in open {
+            for &f in product.iter().filter(|f| !apart.contains(f)) {
+                let with: Vec<Expr> = set.iter().copied().chain([f]).collect();
+                let is_less = |other: &Vec<Expr>| other.iter().all(|f| with.contains(f));
+                if !sets.iter().any(is_less) {
+                    sets.retain(|other| !with.iter().all(|f| other.contains(f)));
+                    sets.push(with);
+                }
+            }
+        }
+        if sets.len() > SETS {
+            return None;
+        }
+    }
+    if sets.len() > 2 * LISTED {
+        return None;
+    }
+    let is_possible =
+        |set: &Vec<Expr>| !never_all_zero(&set.iter().map(|&f| vec![f]).collect::<Vec<_>>(), known);
+    let found: Vec<Vec<Expr>> =
+        sets.into_iter().filter(is_possible).map(|set| without_implied(set, known)).collect();
+    (found.len() <= LISTED).then_some(found)
+}
+
+/// The set without what is 0 anyway where the rest is, the longest first.
+fn without_implied(mut set: Vec<Expr>, known: &Known) -> Vec<Expr> {
+    let mut order = set.clone();
+    order.sort_by_key(|f| std::cmp::Reverse(Expr::postorder(&[*f]).len()));
+    for f in order {
+        let rest: Vec<Expr> = set.iter().copied().filter(|&g| g != f).collect();
+        if known.is_implied(f, &rest) {
+            set = rest;
+        }
+    }
+    set
+}
+
+/// Sets that are looked at, and that are listed.
+const SETS: usize = 100;
+const LISTED: usize = 12;
+/// Parts of a factor beyond which nothing is listed.
+const LONG: usize = 80;
+
 /// A value of a joint variable.
 type Value = (Symbol, Expr);
 
@@ -51,6 +106,21 @@ impl Known {
         values.into_iter().flatten().all(|value| {
             let put = |p: &Product| self.put(p, value);
             self.is_refuted(products.iter().filter_map(put).collect(), cases)
+        })
+    }
+
+    /// Whether a factor is 0 wherever all of some others are, as far as these can be solved one after another.
+    fn is_implied(&self, f: Expr, by: &[Expr]) -> bool {
+        if factored(f, &[]).is_ok_and(|f| f.constant.is_zero()) {
+            return true;
+        }
+        let solved = by.iter().enumerate().find_map(|(k, &g)| Some((k, self.solved(g)?)));
+        let Some((k, values)) = solved.filter(|(_, values)| !values.is_empty()) else { return false };
+        values.into_iter().all(|(joint, value)| {
+            let put = |e: Expr| e.substitute(|s| (s == joint).then_some(value));
+            let rest: Vec<Expr> =
+                by.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, &g)| put(g)).collect();
+            self.is_implied(put(f), &rest)
         })
     }
 
