@@ -23,6 +23,9 @@ const OWN: &[(&str, Convention)] = &[
     ("\"modified\"", Convention::Craig),
     ("'mdh'", Convention::Craig),
     ("revolutedh", Convention::Standard),
+    ("std dh", Convention::Standard),
+    ("std. dh", Convention::Standard),
+    ("std. d-h", Convention::Standard),
     ("prismaticdh", Convention::Standard),
 ];
 

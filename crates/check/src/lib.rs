@@ -33,6 +33,7 @@ mod lexis;
 mod lines;
 mod listing;
 mod loads;
+mod macros;
 pub mod marking;
 mod masses_read;
 mod matrix;
@@ -87,6 +88,7 @@ use denavit_reading::document::{self, Document, Format, Statement};
 use judge::Judge;
 use note::Notes;
 use plan::{Plan, Walked};
+use scripts::Forces;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -159,11 +161,23 @@ pub fn check(
     }
     let options = &options;
     let mut plan = Plan::of(text, format, &document, robot, options, &mut notes)?;
-    let of_dynamics = dynamics::taken(text, &mut document, &plan.tables);
+    let mut of_dynamics = dynamics::taken(text, &mut document, &plan.tables);
     if options.language.is_some() {
         plan.remarks = Rc::new(document.statements.iter().map(|s| s.span.clone()).collect());
     }
     let programs = plan::programs(text, &document, options);
+    let forces = scripts::forces(text, &programs, &|name| plan.joint(name));
+    // What is judged as dynamics is not refused as kinematics.
+    let mut of_forces: Vec<Range<usize>> = vec![];
+    if let Some(Forces { text, document: lines, heads, motion, .. }) = &forces {
+        let found = dynamics::taken(text, &mut lines.clone(), &[]);
+        if !found.is_empty() {
+            of_forces = found.iter().map(|s| s.span.clone()).chain(heads.iter().cloned()).collect();
+            plan.motion = Rc::new(motion.clone());
+        }
+        of_dynamics.extend(found);
+        of_dynamics.sort_by_key(|s| s.span.start);
+    }
     let known = directions::Known::of(&plan.subjects);
     let scripts = scripts::inverse(text, &programs, &|name| plan.is_joint(name), &|name| known.has(name));
     let mut lost = vec![];
@@ -176,12 +190,16 @@ pub fn check(
         scripts.text
     });
     let text = respelled.as_deref().unwrap_or(text);
+    let with_forces = forces.filter(|_| !of_forces.is_empty()).and_then(|f| f.over(text));
     let (plan, senses) = readings::weighed(text, &document, plan, options);
     for sense in senses {
         notes.note(0..0, Noted::Reading(sense));
     }
     let mut walked = plan.walk(text, &document, options);
     walked.unsaid.extend(lost);
+    let is_of_forces =
+        |span: &Range<usize>| of_forces.iter().any(|f| f.start < span.end && span.start < f.end);
+    walked.refused.retain(|e| !is_of_forces(&e.span));
     if !plan.has_robot && walked.assertions.is_empty() {
         notes.error(0..0, Noted::NoRobot);
         return Err(notes.found());
@@ -233,10 +251,14 @@ pub fn check(
         let measures = document.statements.iter().filter(|s| dynamics::is_measure(text, s));
         walked.taken.extend(measures.map(|s| s.span.clone()));
     }
-    let of_dynamics = dynamics_judged(text, &of_dynamics, &plan, &mut walked, &mut claims, &mut notes);
+    let said = with_forces.as_deref().unwrap_or(text);
+    let of_dynamics = dynamics_judged(said, &of_dynamics, &plan, &mut walked, &mut claims, &mut notes);
     let of_arm = reaches::judged(text, &plan, &walked, &claims);
     claims.extend(of_arm);
     let mut unjudged = unjudged::listed(text, &document, &walked, &open_rows, &mut claims, options);
+    let is_tested =
+        |span: &Range<usize>| walked.tested.iter().any(|t| t.start < span.end && span.start < t.end);
+    let computed = computed.into_iter().filter(|c| !is_tested(&c.0)).collect();
     unjudged.extend(unjudged::passed_over(computed, &claims, &unjudged));
     unjudged.extend(of_dynamics);
     unjudged.extend(givens::unused(text, &plan, &walked, &claims));

@@ -219,7 +219,7 @@ fn is_cell(cell: &str) -> bool {
     let plain = cell.trim();
     let words: Vec<&str> = plain.split(|c: char| !c.is_alphabetic()).filter(|w| w.len() > 1).collect();
     let is_known = |w: &&str| {
-        column(w).is_some() || matches!(*w, "pi" | "deg" | "th" | "degrees" | "rad") || w.len() <= 2
+        column(w).is_some() || matches!(*w, "pi" | "deg" | "th" | "degrees" | "rad" | "None") || w.len() <= 2
     };
     !plain.is_empty()
         && plain.len() <= 40
@@ -250,8 +250,10 @@ fn plain_row(line: &str, head: &[Column]) -> Option<[String; 4]> {
     };
     let inner = line.trim_matches(['[', ']', '(', ')', ',', ';', '|']);
     // The bracket of the last cell is its own.
-    let open = inner.matches('(').count().saturating_sub(inner.matches(')').count());
-    let line = format!("{inner}{}", ")".repeat(open));
+    let open = |opening: char, closing: char| {
+        inner.matches(opening).count().saturating_sub(inner.matches(closing).count())
+    };
+    let line = format!("{inner}{}{}", "]".repeat(open('[', ']')), ")".repeat(open('(', ')')));
     let line = line.as_str();
     let by = |c: char| line.split(c).map(str::trim).filter(|c| !c.is_empty()).collect::<Vec<&str>>();
     let cells = match () {
@@ -489,7 +491,12 @@ fn lists(text: &str) -> Option<Listing> {
             span.start = place.start;
         }
         span.end = place.end;
-        rows.extend(found);
+        for mut row in found {
+            // `None` where the variable of the joint stands.
+            let number = rows.len() + 1;
+            row.iter_mut().filter(|c| *c == "None").for_each(|c| *c = format!("q{number}"));
+            rows.push(row);
+        }
     }
     (rows.len() > 1 && !is_transform(&rows)).then(|| {
         let in_degrees = degrees(&rows);
@@ -511,8 +518,11 @@ fn rows_in(line: &str, head: Option<&[Column]>) -> Vec<[String; 4]> {
     let Some(head) = head else { return vec![] };
     let of = |part: &str| {
         let inner = part.strip_prefix(['(', '['])?;
-        let inner = inner.trim_end_matches([']', ')', ',', ' ']);
-        let cells: Vec<String> = parts(inner).into_iter().map(clean).collect();
+        let trimmed = inner.trim_end_matches([']', ')', ',', ' ']);
+        // The bracket of `q[0]` is the cell's own.
+        let open = trimmed.matches('[').count().saturating_sub(trimmed.matches(']').count());
+        let inner = format!("{trimmed}{}", "]".repeat(open));
+        let cells: Vec<String> = parts(&inner).into_iter().map(clean).collect();
         let line = cells.join(", ");
         (cells.len() == 4).then(|| row(&line, head)).flatten()
     };

@@ -71,6 +71,11 @@ impl Configuration {
         }
     }
 
+    /// The joints of a program, in radians and metres.
+    pub fn in_radians(values: &[f64]) -> Self {
+        Configuration { values: values.iter().map(|x| Some((*x, true))).collect(), ..Self::default() }
+    }
+
     /// The present values.
     pub fn present(&self) -> Values {
         self.values.clone()

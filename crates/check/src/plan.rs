@@ -12,6 +12,7 @@ use super::numbers::Configuration;
 use super::order;
 use super::programs::{self, Followed, Source};
 use super::remarks;
+use super::scripts::Motion;
 use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Answered, Assertion, Defined, Goal, Walk, of_other_points, points};
@@ -54,6 +55,8 @@ pub(super) struct Plan {
     pub tables: Rc<Vec<Range<usize>>>,
     /// Statements in the comments of a program.
     pub remarks: Rc<Vec<Range<usize>>>,
+    /// Names of programs for rates and accelerations of joints.
+    pub motion: Rc<Motion>,
 }
 
 /// What the statements of a document claim.
@@ -82,6 +85,8 @@ pub(super) struct Walked {
     pub unsaid: Vec<(Range<usize>, String)>,
     /// Names that programs give numbers, and the robot does not have.
     pub numbers: Vec<String>,
+    /// Comparisons of tests that are judged, and calls of the robot's functions for these.
+    pub tested: Vec<Range<usize>>,
     /// The names of each robot's part of the document, at its end.
     pub names: Vec<Rc<Vocabulary>>,
     /// The same with the entries of the pose as symbols.
@@ -179,6 +184,7 @@ impl Plan {
             is_own,
             tables: Rc::default(),
             remarks: Rc::default(),
+            motion: Rc::default(),
         };
         if let Some(robot) = robot {
             plan.push(0, named(robot));
@@ -303,8 +309,16 @@ impl Plan {
 
     /// True for a name of a joint.
     pub fn is_joint(&self, name: &str) -> bool {
-        let found = |s: &Rc<Subject>| s.vocabulary().lookup(name).is_some_and(|e| s.joints().contains(&e));
-        self.subjects.iter().any(found)
+        self.joint(name).is_some()
+    }
+
+    /// The number of the joint that a name is of.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        let found = |s: &Rc<Subject>| {
+            let own = s.vocabulary().lookup(name)?;
+            s.joints().iter().position(|q| *q == own)
+        };
+        self.subjects.iter().find_map(found)
     }
 
     /// The programs of a document: the number of the robot, the language, and the blocks.
@@ -342,7 +356,8 @@ impl Plan {
         let (own_tables, authors) = (Rc::clone(&self.own_tables), self.authors.clone());
         let programs = self.programs.clone();
         let (has_robot, is_own, tables) = (self.has_robot, self.is_own, Rc::clone(&self.tables));
-        let (posed, remarks) = (self.posed.clone(), Rc::clone(&self.remarks));
+        let (posed, remarks, motion) =
+            (self.posed.clone(), Rc::clone(&self.remarks), Rc::clone(&self.motion));
         Plan {
             subjects,
             habits,
@@ -356,6 +371,7 @@ impl Plan {
             is_own,
             tables,
             remarks,
+            motion,
         }
     }
 
@@ -463,7 +479,7 @@ impl Plan {
         let (mut assertions, mut refused) = (walk.assertions, vec![]);
         let of_document = assertions.len();
         let source = self.programs.as_deref().unwrap_or(text);
-        let (mut followed, mut unsaid, mut numbers) = (vec![], vec![], vec![]);
+        let (mut followed, mut unsaid, mut numbers, mut tested) = (vec![], vec![], vec![], vec![]);
         for (number, language, blocks) in self.blocks(text, document, options) {
             let outputs = outputs(text, document, &blocks);
             let of = Source {
@@ -481,6 +497,7 @@ impl Plan {
             followed.extend(found.followed);
             unsaid.extend(found.unsaid);
             numbers.extend(found.numbers);
+            tested.extend(found.tested);
             walk.defined.extend(found.defined);
         }
         walk.defined.sort_by_key(|d| d.from);
@@ -515,6 +532,7 @@ impl Plan {
             followed,
             unsaid,
             numbers,
+            tested,
             names,
             inverse_names,
             stated,

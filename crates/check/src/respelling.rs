@@ -1,6 +1,7 @@
 //! Ways of writing that are turned into those that are read, byte for byte: each place stays where it is.
 
 use super::displayed;
+use super::macros;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -16,7 +17,9 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 14] = [
+    let of_prose: [fn(&str) -> Option<String>; 16] = [
+        macros::written_out,
+        macros::values_in_tables,
         without_quotes,
         without_speakers,
         small_functions,
@@ -32,6 +35,9 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         torques_by_words,
         displayed::bracketed,
     ];
+    if let Some(now) = script_without_head(&text).filter(|_| is_program) {
+        text = Cow::Owned(now);
+    }
     let count = if is_program { 0 } else { of_prose.len() };
     for respell in of_all.iter().chain(&of_prose[..count]) {
         if let Some(now) = respell(&text) {
@@ -39,6 +45,30 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         }
     }
     text
+}
+
+/// A MATLAB function that takes and gives nothing, the only one of its file, is a script: without its head and its end; nothing for
+/// other texts.
+fn script_without_head(text: &str) -> Option<String> {
+    let code = |line: &Range<usize>| {
+        let source = text.get(line.clone()).unwrap_or_default().trim();
+        (!source.is_empty() && !source.starts_with('%')).then_some(source)
+    };
+    let all: Vec<Range<usize>> = super::lines::lines(text).collect();
+    let first = all.iter().find(|l| code(l).is_some())?;
+    let head = code(first)?.strip_prefix("function ")?.trim();
+    let name = head.strip_suffix("()").unwrap_or(head);
+    let is_plain = name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let is_alone = !all.iter().any(|l| l != first && code(l).is_some_and(|c| c.starts_with("function ")));
+    if !is_plain || !is_alone {
+        return None;
+    }
+    let last = all.iter().rev().find(|l| code(l).is_some()).filter(|l| code(l) == Some("end"));
+    let mut bytes = text.as_bytes().to_vec();
+    for line in [Some(first), last].into_iter().flatten() {
+        bytes[line.clone()].iter_mut().filter(|b| !b.is_ascii_whitespace()).for_each(|b| *b = b' ');
+    }
+    String::from_utf8(bytes).ok()
 }
 
 /// The lines with an `=` in them that are no longer than people write, each with its place.

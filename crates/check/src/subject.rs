@@ -294,18 +294,27 @@ impl Subject {
         of_frames(&frames, &hand.unwrap_or_else(Transform::identity), &is_revolute)
     }
 
-    /// The number of the first joint where the table's names count the joints from another one than 1: q0, q1, …, or θ4, θ5, θ6
-    /// of a wrist.
-    fn counts_from(&self) -> Option<usize> {
+    /// The numbers of the joints where the table's names count otherwise than its rows: q0, q1, …, or θ4, θ5, θ6 of a wrist; θ1, θ2 beside
+    /// a slide without a number.
+    fn numbers(&self) -> Option<Vec<Option<usize>>> {
         let number = |name: &str| -> Option<usize> {
             let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
             name[stem.len()..].parse().ok().filter(|n| !stem.is_empty() && *n < 10)
         };
-        let first = number(self.variables.first()?.as_deref()?).filter(|n| *n != 1)?;
-        let is_counted = self.variables.len() > 1
-            && self.first == 0
-            && (first..).zip(&self.variables).all(|(k, v)| v.as_deref().and_then(number) == Some(k));
-        is_counted.then_some(first)
+        if self.first != 0 || self.variables.len() < 2 {
+            return None;
+        }
+        let all: Vec<Option<usize>> = self.variables.iter().map(|v| v.as_deref().and_then(number)).collect();
+        let first = all.first().copied().flatten().filter(|n| *n != 1);
+        if first.is_some_and(|f| (f..).zip(&all).all(|(k, n)| *n == Some(k))) {
+            return Some(all);
+        }
+        let variables = self.description.variables();
+        let turns =
+            || variables.iter().zip(&all).filter(|(v, _)| v.kind == JointKind::Revolute).map(|(_, n)| *n);
+        let is_own = all.iter().enumerate().all(|(k, n)| n.is_none_or(|n| n == k + 1));
+        let is_counted = turns().count() > 1 && (1..).zip(turns()).all(|(k, n)| n == Some(k));
+        (is_counted && !is_own).then_some(all)
     }
 
     /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
@@ -313,15 +322,17 @@ impl Subject {
     pub fn vocabulary(&self) -> Vocabulary {
         let d = &self.description;
         let variables = d.variables();
-        let counts_from = self.counts_from();
-        let mut names = match counts_from {
+        let numbers = self.numbers();
+        let mut names = match &numbers {
             None => d.vocabulary(),
-            Some(first) => {
+            Some(all) => {
                 let names = d.parameters.iter().fold(Vocabulary::new(), |v, p| v.symbol(&p.symbol.name()));
-                let first = u32::try_from(first).unwrap_or(0);
-                (first..).zip(&variables).fold(names, |v, (n, variable)| match variable.kind {
-                    JointKind::Revolute => v.angle(n, variable.symbol),
-                    JointKind::Prismatic => v.sliding(n, variable.symbol),
+                all.iter().zip(&variables).fold(names, |v, (n, variable)| {
+                    match (n.and_then(|n| u32::try_from(n).ok()), variable.kind) {
+                        (Some(n), JointKind::Revolute) => v.angle(n, variable.symbol),
+                        (Some(n), JointKind::Prismatic) => v.sliding(n, variable.symbol),
+                        (None, _) => v,
+                    }
                 })
             }
         };
@@ -364,16 +375,19 @@ impl Subject {
                 Some(v) if v.kind == JointKind::Revolute => v.symbol.into(),
                 _ => row.theta,
             };
-            if counts_from.is_some() {
+            if numbers.is_some() {
                 continue;
             }
             names = declare(names, &format!("θ{i}"), theta);
         }
-        let begin = counts_from.unwrap_or(self.first + 1);
-        let angles: Vec<(usize, Symbol)> = (begin..)
+        let counted: Vec<Option<usize>> =
+            numbers.unwrap_or_else(|| (self.first + 1..).map(Some).take(variables.len()).collect());
+        let angles: Vec<(usize, Symbol)> = counted
+            .into_iter()
             .zip(&variables)
-            .filter(|(i, v)| *i <= 9 && v.kind == JointKind::Revolute)
-            .map(|(i, v)| (i, v.symbol))
+            .filter_map(|(n, v)| Some((n.filter(|n| *n <= 9)?, v)))
+            .filter(|(_, v)| v.kind == JointKind::Revolute)
+            .map(|(n, v)| (n, v.symbol))
             .collect();
         for start in 0..angles.len() {
             let (mut digits, mut sum) = (angles[start].0.to_string(), Expr::from(angles[start].1));

@@ -10,6 +10,7 @@ use super::told::{Told, told};
 use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
 use super::words::{Role, names, role, words};
 use crate::facts::Spoken;
+use crate::scripts::Motion;
 use crate::subject::Subject;
 use denavit::description::JointKind;
 use denavit_reading::document::Statement;
@@ -101,7 +102,7 @@ impl Attempt {
 }
 
 /// The way to read in which most is right; the more usual of those that are as good.
-pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<Attempt> {
+pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Motion) -> Option<Attempt> {
     let d = &subject.description;
     let rows = moving_rows(d)?;
     let n = rows.len();
@@ -159,7 +160,7 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement]) -> Option<A
             let letters = &way.letters;
             let mut mentioned = mentioned.clone();
             mentioned.extend(way.measures.keys().cloned());
-            let mut names = names(subject, &model.state, &rows, &mentioned, way.length, letters);
+            let mut names = names(subject, (&model.state, motion), &rows, &mentioned, way.length, letters);
             names.is_measured = !way.measures.is_empty();
             let roles = names.roles.clone();
             let read = statements(text, all, names, &model.state);

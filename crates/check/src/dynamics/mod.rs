@@ -57,6 +57,20 @@ pub(super) fn taken(text: &str, document: &mut Document, rows: &[Range<usize>]) 
     taken::taken(text, document, rows)
 }
 
+/// True for a formula with a mass or an inertia of a body in it.
+pub(super) fn speaks_of_masses(formula: &str) -> bool {
+    let is_of_body = |w: &String| {
+        matches!(
+            words::role(w, 9),
+            Some(words::Role::Mass(Some(_)) | words::Role::About(..) | words::Role::Ten(..))
+        )
+    };
+    let words = words::words(formula);
+    let has_inertia = |w: &String| matches!(words::role(w, 9), Some(words::Role::Inertia(Some(_))));
+    words.iter().any(|w| is_of_body(w) && !w.starts_with('M'))
+        || words.iter().any(has_inertia) && words.contains("g")
+}
+
 /// Judges the statements about dynamics beside claims that there are already.
 pub(super) fn judged(text: &str, taken: &[Statement], plan: &Plan, known: &[Claim]) -> Judged {
     let mut by_subject: BTreeMap<usize, Vec<Statement>> = BTreeMap::new();
@@ -94,7 +108,7 @@ pub(super) fn support(text: &str, document: &Document, plan: &Plan) -> [usize; 2
 fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, known: &[Claim], judged: &mut Judged) {
     let subject = &plan.subjects[number];
     let silent = |s: &Statement| Unjudged { span: s.span.clone(), why: Skipped::SaysNothing };
-    let attempt = attempt::best(text, subject, all);
+    let attempt = attempt::best(text, subject, all, &plan.motion);
     let Some((attempt, (said, helpers))) =
         attempt.and_then(|a| verdict::verdicts(text, all, subject, &a).map(|v| (a, v)))
     else {

@@ -200,6 +200,16 @@ impl Verdicts<'_> {
         if !pairs.iter().all(|(_, value, wanted)| equal(with(*value, should), *wanted).is_equal()) {
             return;
         }
+        // What is right with the helper as it is printed stays so with the other, or the helper is not at fault.
+        let is_kept = |k: usize| match value(k) {
+            Some(e) if e.symbols().contains(&symbol) => {
+                equal(with(e, should), read.pieces[k].value).is_equal()
+            }
+            _ => true,
+        };
+        if !(0..said.len()).filter(|&k| matches!(said[k], Some(Said::Right { .. }))).all(is_kept) {
+            return;
+        }
         for (pieces, ..) in &pairs {
             for &p in pieces {
                 let truth = match read.pieces[p].candidates[..] {

@@ -278,6 +278,8 @@ impl Verdicts<'_> {
                 Said::Open(Unproved::OpenReading)
             }
             None if is_case => Said::Open(Unproved::OpenReading),
+            // There is no slip to show where nothing should stand.
+            Some((_, wanted, _)) if wanted.is_zero() => Said::Wrong { wanted, slips: vec![] },
             Some((_, wanted, slips)) => Said::Wrong { wanted, slips },
             None if is_pinned && piece.candidates.len() == 1 => match self.model.value(piece.candidates[0]) {
                 Some(wanted) => {
@@ -411,8 +413,20 @@ impl Verdicts<'_> {
                 matches!((printed, held), (Some(a), Some(b)) if agree(&a, &b, quantity))
             })
         };
-        // A zero among formulas in which the joint moves is meant for all its values.
-        let is_meant = |q: &&Symbol| !(piece.value.is_zero() && spoken.contains(q));
+        // A zero among formulas in which the joint moves is meant for all its values, and so is what stands beside another of its kind
+        // that is right for all of them.
+        let read = &self.attempt.read;
+        let right_kin: Vec<Symbol> = read
+            .pieces
+            .iter()
+            .zip(&self.attempt.test_of_piece)
+            .filter(|(p, t)| {
+                let is_of_kind = matches!(&p.candidates[..], [q] if std::mem::discriminant(q) == std::mem::discriminant(&quantity));
+                is_of_kind && t.is_some_and(|t| self.attempt.vote.best[0].right[t])
+            })
+            .flat_map(|(p, _)| p.value.symbols())
+            .collect();
+        let is_meant = |q: &&Symbol| !(piece.value.is_zero() && spoken.contains(q) || right_kin.contains(q));
         state.q.iter().filter(|q| !printed.contains(q) && right.contains(q)).filter(is_meant).any(is_fixed)
     }
 }

@@ -1,6 +1,7 @@
 //! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
 
 use super::letters::{Letters, role_of};
+use crate::scripts::Motion;
 use crate::subject::{Subject, spellings as spelled};
 use denavit::description::JointKind;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
@@ -92,7 +93,8 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
         let last: String = base.chars().rev().take(1).collect();
         let long = BASES.iter().find(|b| base.ends_with(**b)).map(|b| (*b).to_string());
         if script.is_empty() {
-            if matches!(base.as_str(), "mL" | "ML" | "mp" | "Mp" | "mt") {
+            // `Jz`, the one inertia that there is.
+            if matches!(base.as_str(), "mL" | "ML" | "mp" | "Mp" | "mt") || BASES.contains(&&*base) {
                 found.insert(base.clone());
             }
             // A product of names has few letters; `sigma`, `gamma` are one, and so is a word.
@@ -248,12 +250,12 @@ pub(super) struct Names {
     pub is_measured: bool,
 }
 
-/// Names for an arm: `state` are the symbols of joints, rates and accelerations, `rows` the rows that move. With `lengths` names
+/// Names for an arm: `state` are the symbols of joints, rates and accelerations, `motion` names of a program for these, `rows` the rows that move. With `lengths` names
 /// `l_1, l_2` of one letter that the table does not have are the lengths in its rows; `letters` are those
 /// of bodies.
 pub(super) fn names(
     subject: &Subject,
-    state: &super::model::State,
+    (state, motion): (&super::model::State, &Motion),
     rows: &[usize],
     mentioned: &BTreeSet<String>,
     lengths: Option<char>,
@@ -313,6 +315,15 @@ pub(super) fn names(
             }
         }
     }
+    // Parameters of a function hide the lengths that `a1` would be in the table.
+    let is_in_table = |w: &String| own.lookup(w).and_then(Expr::as_symbol).is_some_and(|s| *s.name() == **w);
+    let is_motion = |w: &String| motion.contains_key(w) && !is_in_table(w);
+    for (name, &(joint, order)) in motion {
+        let all = if order == 1 { &state.qd } else { &state.qdd };
+        if let Some(&symbol) = all.get(joint).filter(|_| is_motion(name)) {
+            vocabulary = std::mem::take(&mut vocabulary).alias(name, symbol.into());
+        }
+    }
     let rotors: Vec<Option<usize>> = mentioned
         .iter()
         .filter_map(|w| match role_of(w, n, letters) {
@@ -337,7 +348,7 @@ pub(super) fn names(
     let is_mass = |w: &String| number(w, 'M').is_some() || number(w, 'm').is_some_and(|k| k > n + 1);
     let has_others = has_ten && mentioned.iter().any(is_mass);
     let is_other = |word: &str| has_others && word.starts_with('m');
-    for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w)) {
+    for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w) && !is_motion(w)) {
         let Some(role) = role_of(word, n, letters) else { continue };
         if let Role::Gear(of) = role
             && !has_rotor(of)

@@ -2,6 +2,7 @@
 //! what a function returns.
 
 mod called;
+mod compared;
 mod defined;
 mod followed;
 mod moving;
@@ -56,6 +57,8 @@ pub(super) struct Programs {
     pub unsaid: Vec<(Range<usize>, String)>,
     /// Names that get numbers, and that the robot does not have.
     pub numbers: Vec<String>,
+    /// Comparisons of tests that are judged, and calls of the robot's functions for these.
+    pub tested: Vec<Range<usize>>,
 }
 
 /// A claim whose entries are right given what the program computed before.
@@ -111,9 +114,18 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         let found = lexis.names.lookup(name)?;
         joints.iter().position(|q| *q == found)
     };
-    let told = |name: &str, values: &[Expr]| stated.joints(values, joint(name), name);
+    // A component of a load stays one whatever number it has.
+    let component = |name: &str, values: &[Expr]| {
+        let stem = name.strip_suffix(['x', 'y', 'z'])?;
+        let is_load = matches!(stem, "F" | "f") && values.len() == 1 && values[0].symbols().is_empty();
+        is_load.then(|| vec![Expr::symbol(name)])
+    };
+    let told = |name: &str, values: &[Expr]| {
+        stated.joints(values, joint(name), name).or_else(|| component(name, values))
+    };
     let (mut mended, none) = (BTreeMap::new(), BTreeMap::new());
-    let asked = Asked { names: &meaning, joints: &joints, stated: &told, mended: &none, posed: None };
+    let asked =
+        Asked { names: &meaning, joints: &joints, stated: &told, mended: &none, posed: None, own: None };
     let codes = read_blocks(source, blocks, language, &asked);
     let mut found = Programs::default();
     let mut comments = Walk::new(text, subject, habits);
@@ -125,7 +137,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             comments.told_in_comments(&line, language);
             places.push((line.end, comments.at.clone()));
         }
-        let Code { functions, rows, refusals } = code;
+        let Code { functions, rows, refusals, .. } = code;
         // What stands in a function that is judged as that of a row is not refused as another one.
         let of_row = |e: &ParseError| rows.iter().any(|r| r.reading.span.contains(&e.span.start));
         found.refused.extend(refusals.iter().filter(|e| !of_row(e)).cloned().map(Unread::from));
@@ -154,6 +166,8 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             found.assertions.extend(program.returned(function).into_iter().map(of_others));
             let entries = program.entries(function, &found.assertions[count..]);
             found.assertions.extend(entries.into_iter().map(of_others));
+            let torques = program.torques_one_by_one(function, &found.assertions[count..]);
+            found.assertions.extend(torques.into_iter().map(of_others));
             let judged = found.assertions[count..].to_vec();
             found.assertions.extend(program.recognised(function, &judged));
             if found.assertions.len() == count && !function.returned.is_empty() {
@@ -168,12 +182,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     mended.extend(found.assertions.iter().filter_map(mended_by));
     let truth = match mended.is_empty() {
         true => None,
-        false => Some(read_blocks(
-            source,
-            blocks,
-            language,
-            &Asked { names: &meaning, joints: &joints, stated: &told, mended: &mended, posed: None },
-        )),
+        false => Some(read_blocks(source, blocks, language, &Asked { mended: &mended, ..asked })),
     };
     let right = truth.as_deref().unwrap_or(&codes);
     found.followed = followed(source, &codes, right, &found.assertions);
@@ -186,7 +195,20 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     found.defined = defined(source, &codes, &found.assertions, number);
     let telling = Telling { subject, habits, lexis, functions: of.posed };
     posed::solutions(of, &telling, &asked, &mut found);
+    compared::tests(of, subject, &asked, &mut found);
     found
+}
+
+/// `T01` for `T0_1`: a matrix between two frames.
+fn joined(name: &str) -> String {
+    let parts: Vec<&str> = name.split('_').collect();
+    let is_number = |s: &str| s.len() == 1 && s.chars().all(|c| c.is_ascii_digit());
+    match parts[..] {
+        [first, last] if first.len() == 2 && is_number(&first[1..]) && is_number(last) => {
+            format!("{first}{last}")
+        }
+        _ => name.into(),
+    }
 }
 
 /// The names in a formula.
@@ -361,8 +383,8 @@ impl Program<'_> {
                 Some(self.assertion(shown, About::Entry, span, pieces, None))
             }
             Value::Matrix(rows) => {
-                let name = stem(name);
-                let name = self.lexis.lone_name(name, &(0..name.len()))?;
+                let name = joined(stem(name));
+                let name = self.lexis.lone_name(&name, &(0..name.len()))?;
                 if name.is_bare() {
                     return None;
                 }

@@ -7,8 +7,8 @@ use crate::custom;
 use crate::facts::{About, Meaning};
 use crate::matrix::Matrix;
 use crate::walk::Assertion;
-use denavit_reading::code::{Cell, Reading, Value, is_force};
-use denavit_symbolic::{Expr, equal};
+use denavit_reading::code::{Assigned, Cell, Reading, Value, is_force};
+use denavit_symbolic::{Expr, Symbol, equal};
 use std::ops::Range;
 
 impl Program<'_> {
@@ -24,7 +24,11 @@ impl Program<'_> {
         let lower = name.to_lowercase();
         let is_called = NAMES.iter().any(|n| lower.starts_with(n) || lower.ends_with(n));
         let n = self.subject.joints().len();
-        if !is_called || rows.len() < n.min(2) || rows.len() > n || rows.iter().any(|r| r.len() != 1) {
+        if !(is_called || self.has_force(rows.iter().flatten()))
+            || rows.len() < n.min(2)
+            || rows.len() > n
+            || rows.iter().any(|r| r.len() != 1)
+        {
             return None;
         }
         let wanted = self.told_torques(rows).or_else(|| self.torques_of_argument(rows))?;
@@ -73,6 +77,40 @@ impl Program<'_> {
         (2 * count > rows.len()).then_some(best)
     }
 
+    /// The torques of the first joints, each under a name of its own, `tau1 = … F[0] + … F[1]`.
+    pub(super) fn torques_one_by_one(&self, function: &Reading, judged: &[Assertion]) -> Vec<Assertion> {
+        let is_free =
+            |a: &&Assigned| !judged.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
+        let torque = |k: usize| {
+            let is_called = |a: &&Assigned| custom::plain(&a.name) == format!("τ{k}");
+            // `n1`, `f3`: by their numbers, if a force stands in them.
+            let is_numbered = |a: &&Assigned| {
+                let stem = a.name.trim_end_matches(|c: char| c.is_ascii_digit());
+                let has_force = matches!(&a.value, Value::Scalar(cell) if self.has_force([cell]));
+                has_force && a.name[stem.len()..].parse() == Ok(k)
+            };
+            let mut all = function.assigned.iter().rev().filter(is_free);
+            let found = all.clone().find(is_called).or_else(|| all.find(is_numbered))?;
+            match &found.value {
+                Value::Scalar(cell) => Some((found, cell)),
+                Value::Matrix(_) => None,
+            }
+        };
+        let all: Vec<(&Assigned, &Cell)> = (1..=self.subject.joints().len()).map_while(torque).collect();
+        let rows: Vec<Vec<Cell>> = all.iter().map(|(_, cell)| vec![(*cell).clone()]).collect();
+        if rows.len() < 2 {
+            return vec![];
+        }
+        let Some(wanted) = self.told_torques(&rows).or_else(|| self.torques_of_argument(&rows)) else {
+            return vec![];
+        };
+        let of = |((a, cell), wanted): (&(&Assigned, &Cell), Expr)| {
+            let pieces = vec![self.piece(None, cell, wanted)];
+            self.assertion(&a.name, About::Entry, &a.span, pieces, None)
+        };
+        all.iter().zip(wanted).map(of).collect()
+    }
+
     /// The velocity of the hand that a function gives back, which its name says.
     pub(super) fn velocity(
         &self,
@@ -111,6 +149,15 @@ impl Program<'_> {
         }
         let pieces = vec![self.piece(None, cell, self.subject.velocity()[axis])];
         Some(self.assertion(shown, About::Equation, span, pieces, None))
+    }
+
+    /// Whether components of a force stand in what is printed.
+    fn has_force<'c>(&self, cells: impl IntoIterator<Item = &'c Cell>) -> bool {
+        let is_component = |s: &Symbol| {
+            s.name().strip_suffix(['x', 'y', 'z']).is_some_and(is_force)
+                && !self.subject.joints().contains(&(*s).into())
+        };
+        cells.into_iter().any(|c| c.value.symbols().iter().any(is_component))
     }
 
     fn has_rates<'c>(&self, cells: impl IntoIterator<Item = &'c Cell>) -> bool {

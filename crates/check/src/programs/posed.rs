@@ -129,7 +129,7 @@ pub(super) fn solutions(of: &Source<'_>, telling: &Telling<'_>, asked: &Asked<'_
                 |a: &Assertion| taken.iter().all(|t| a.span.end <= t.start || t.end <= a.span.start);
             found.assertions.extend(joints.into_iter().chain(others).filter(is_free));
             let functions = vec![function.clone()];
-            chosen.push(Code { functions, rows: vec![], refusals: vec![] });
+            chosen.push(Code { functions, ..Code::default() });
         }
     }
     let more = defined(text, &chosen, &found.assertions, number);

@@ -303,7 +303,8 @@ impl Showing<'_> {
         let copy = format!("{}{}", " ".repeat(region.start), plain);
         let none = |_: &str, _: &[Expr]| None;
         let (mended, joints) = (BTreeMap::new(), self.subject.joints());
-        let asked = Asked { names: self.meaning, joints, stated: &none, mended: &mended, posed: None };
+        let asked =
+            Asked { names: self.meaning, joints, stated: &none, mended: &mended, posed: None, own: None };
         let indent = plain.find(|c: char| !c.is_whitespace())?;
         let span = region.start + indent..region.end;
         let mut code = read_blocks(&copy, &[span], self.of.language, &asked);

@@ -1,6 +1,6 @@
 //! What lines of programs compute, so that none of them is passed over in silence.
 
-use super::{MODULES, regions};
+use super::{MODULES, Region, regions};
 use denavit_reading::code::Dialect;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -19,6 +19,7 @@ pub(crate) fn computed(
             .flat_map(|t| crate::programs::words(text.get(t.0.clone()).unwrap_or_default()))
             .collect();
         for region in regions(text, span, *language) {
+            let before = found.len();
             let mut moving: BTreeSet<String> =
                 region.parameters.iter().filter(|p| !p.is_empty()).cloned().collect();
             for line in &region.lines {
@@ -42,10 +43,59 @@ pub(crate) fn computed(
                     }
                 }
             }
+            let more = [entries_beside(text, &region, &found[before..]), initialized(text, &region)].concat();
+            found.extend(more);
         }
         found.extend(tests);
     }
     found
+}
+
+/// Arrays of C that are given their entries at once, `double M[3][3] = {{c1, -s1, 0}, …`.
+fn initialized(text: &str, region: &Region) -> Vec<(Range<usize>, String)> {
+    let Some(function) = &region.function else { return vec![] };
+    let source = text.get(function.clone()).unwrap_or_default();
+    let opened = |(at, _): (usize, &str)| {
+        let head = source[..at].trim_end().strip_suffix(']')?;
+        let line = head.rfind(['\n', ';', '{', '(']).map_or(head, |i| &head[i + 1..]);
+        let name = line.split('[').next()?.rsplit([' ', '*']).next()?.to_string();
+        let end = source[at..].find(';').map_or(source.len(), |i| at + i);
+        let is_name = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        let computes = source[at..end].contains(char::is_alphabetic);
+        let start = source[..at].rfind(&name)?;
+        (is_name && computes).then(|| (function.start + start..function.start + end, name))
+    };
+    source.match_indices("= {").chain(source.match_indices("={")).filter_map(opened).collect()
+}
+
+/// What a function gives back under a bare name, beside others that compute something: `ds = vz`. And entries that are a bare name beside others that compute something: `M33 = mt` below `M11 = …`.
+fn entries_beside(
+    text: &str,
+    region: &Region,
+    found: &[(Range<usize>, String)],
+) -> Vec<(Range<usize>, String)> {
+    let family = |name: &str| {
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        (stem.to_string(), name.len() - stem.len())
+    };
+    let families: BTreeSet<(String, usize)> =
+        found.iter().map(|f| family(&f.1)).filter(|f| f.1 > 0).collect();
+    let lines = region.lines.iter().flat_map(|l| l.parts.iter().map(move |p| (l.span.start..p.1.end, p)));
+    let is_plain = |formula: &Range<usize>| {
+        let source = text.get(formula.clone()).unwrap_or_default().trim();
+        source.starts_with(char::is_alphabetic) && source.chars().all(|c| c.is_alphanumeric() || c == '_')
+    };
+    let is_new = |name: &str| !found.iter().any(|f| f.1 == name);
+    let whole = region.function.clone().and_then(|f| text.get(f)).unwrap_or_default();
+    let returned: BTreeSet<&str> = whole
+        .lines()
+        .filter_map(|l| l.trim_start().strip_prefix("return "))
+        .flat_map(crate::programs::words)
+        .collect();
+    let gives_back = found.iter().any(|f| returned.contains(f.1.as_str()));
+    let is_beside = |name: &str| families.contains(&family(name)) || gives_back && returned.contains(name);
+    let beside = lines.filter(|(_, (name, f))| is_beside(name) && is_new(name) && is_plain(f));
+    beside.map(|(span, (name, _))| (span, name.clone())).collect()
 }
 
 /// The comparisons of tests, `np.testing.assert_allclose(T, expected)`, with what they are called.

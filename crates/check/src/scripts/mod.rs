@@ -6,6 +6,7 @@
 //! an entry of an argument, `T[0, 3]`, is the entry of the pose.
 
 mod computed;
+mod forces;
 mod spelling;
 
 use super::directions::DIRECTIONS;
@@ -13,6 +14,7 @@ use super::listing::comment_mark;
 pub(super) use computed::computed;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
+pub(super) use forces::{Forces, Motion, forces};
 use spelling::{branches, defines, is_factor_of_root, renamed, roots, spelled, squeezed};
 use std::collections::BTreeSet;
 use std::ops::Range;

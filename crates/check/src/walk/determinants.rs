@@ -33,8 +33,14 @@ impl Walk<'_> {
         let inner = if inner.is_empty() && self.is_last_a_jacobian() { "J" } else { inner };
         let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
         let told = crate::jacobians::told_of_jacobian(&name)?;
-        if name.base == "J" && name.sub == "11" && self.lexis.defined(&name).is_none() {
-            return self.determinant_of_wrist();
+        // The blocks of an arm with a wrist: of the position, and of the orientation.
+        if name.base == "J" && self.lexis.defined(&name).is_none() {
+            match name.sub.as_str() {
+                "11" => return self.determinant_of_wrist(false),
+                "22" => return self.determinant_of_wrist(true),
+                "12" | "21" => return None,
+                _ => {}
+            }
         }
         // Rows that vanish are left out.
         let moves = |row: &&Vec<Option<Expr>>| row.iter().any(|e| e.is_none_or(|e| !e.is_zero()));
@@ -91,17 +97,22 @@ impl Walk<'_> {
         matrices.into_iter().next().is_none_or(|m| matches!(m, Meaning::Jacobian(_)))
     }
 
-    /// That of the first three joints and the point in which the last three axes meet: the upper left block `J_{11}`.
-    fn determinant_of_wrist(&self) -> Option<Expr> {
+    /// That of the first three joints and the point in which the last three axes meet, the upper left block `J_{11}`; or of the last
+    /// three joints and the rotation of the hand, the lower right one `J_{22}`.
+    fn determinant_of_wrist(&self, is_of_rotation: bool) -> Option<Expr> {
         let origin = |k: usize| Some(self.subject.transform(Some(0), Some(k))?.translation);
         let (four, five) = (origin(4)?, origin(5)?);
         let meet = four.0.iter().zip(&five.0).all(|(a, b)| denavit_symbolic::equal(*a, *b).is_equal());
         if self.subject.joints().len() != 6 || !meet {
             return None;
         }
-        let rows = self.subject.geometric_rows(Reference::Frame(4), Reference::Frame(0));
-        let first = |row: &Vec<Expr>| row[..3].iter().map(|e| Some(*e)).collect();
-        let block = Matrix(rows[..3].iter().map(first).collect());
+        let (body, part) = match is_of_rotation {
+            false => (Reference::Frame(4), 0..3),
+            true => (Reference::Tool, 3..6),
+        };
+        let rows = self.subject.geometric_rows(body, Reference::Frame(0));
+        let block = rows[part.clone()].iter().map(|row| row[part.clone()].iter().map(|e| Some(*e)).collect());
+        let block = Matrix(block.collect());
         (block.shape() == Some((3, 3))).then(|| block.determinant())?
     }
 

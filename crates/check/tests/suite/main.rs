@@ -22,6 +22,7 @@ mod spoken;
 mod statements;
 mod strangers;
 mod tables;
+mod tested;
 mod told;
 mod unheard;
 mod unsupported;

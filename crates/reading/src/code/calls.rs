@@ -49,8 +49,11 @@ impl<'a> Machine<'a> {
     }
 
     pub fn path(&mut self, base: &'a Node, suffixes: &'a [Suffix]) -> Read<Object<'a>> {
-        let mut value = self.eval(base)?;
-        let mut rest = suffixes.iter();
+        let (mut value, read) = match self.called_of_robot(base, suffixes)? {
+            Some(found) => found,
+            None => (self.eval(base)?, 0),
+        };
+        let mut rest = suffixes[read..].iter();
         while let Some(suffix) = rest.next() {
             let span = base.span.start..suffix.end;
             self.budget.charge(value.weight(), &span)?;

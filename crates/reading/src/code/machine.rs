@@ -62,6 +62,12 @@ pub(super) struct Machine<'a> {
     pub mended: &'a BTreeMap<usize, Vec<Expr>>,
     /// How a program is read that is told of a pose.
     pub posed: Option<super::Posed<'a>>,
+    /// What functions of the robot give that the text has not.
+    pub own: Option<&'a super::OwnFunction<'a>>,
+    /// The joints of each call of these.
+    pub calls: Vec<Vec<Expr>>,
+    /// What tests compared.
+    pub compared: Vec<super::Compared>,
     /// What was shown.
     pub shown: Vec<Shown>,
     pub functions: BTreeMap<&'a str, &'a Definition>,
@@ -88,7 +94,7 @@ pub(super) struct Machine<'a> {
 
 impl<'a> Machine<'a> {
     pub fn new(language: Dialect, asked: &super::Asked<'a>) -> Self {
-        let super::Asked { names, joints, stated, mended, posed } = *asked;
+        let super::Asked { names, joints, stated, mended, posed, own } = *asked;
         Machine {
             language,
             names,
@@ -96,6 +102,9 @@ impl<'a> Machine<'a> {
             stated,
             mended,
             posed,
+            own,
+            calls: vec![],
+            compared: vec![],
             shown: vec![],
             functions: BTreeMap::new(),
             imports: BTreeMap::new(),
@@ -305,6 +314,9 @@ impl<'a> Machine<'a> {
             StatementKind::Break => return Ok(Flow::Break),
             StatementKind::Continue => return Ok(Flow::Continue),
             StatementKind::Pass => {}
+            StatementKind::Assert(node) => {
+                self.compares(node);
+            }
             StatementKind::Raise => {
                 self.refuse(ParseError::new(span.clone(), "the code ends with an error here").into());
                 return Ok(Flow::Lost);
@@ -360,7 +372,7 @@ impl<'a> Machine<'a> {
 
     /// An expression by itself: it may change a list, or only show something.
     fn show(&mut self, node: &'a Node) -> Read<()> {
-        if matches!(node.kind, Kind::Text(_)) {
+        if matches!(node.kind, Kind::Text(_)) || self.compares(node) {
             return Ok(());
         }
         if is_display(node) {

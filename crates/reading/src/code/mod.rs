@@ -13,6 +13,7 @@ mod builders;
 mod c;
 mod calculus;
 mod calls;
+mod compared;
 mod eval;
 mod grammar;
 mod known;
@@ -30,6 +31,7 @@ mod scalar;
 mod tree;
 mod value;
 
+pub use compared::{Compared, OwnFunction};
 use denavit_symbolic::Expr;
 use denavit_symbolic::parse::{ParseError, Syntax};
 use machine::Machine;
@@ -86,6 +88,8 @@ pub struct Code {
     pub rows: Vec<RowFunction>,
     /// What is not read, in the order of the text.
     pub refusals: Vec<ParseError>,
+    /// What its tests compare, if the robot's own functions are known.
+    pub compared: Vec<Compared>,
 }
 
 /// A function that gives the transform of a row of a table.
@@ -204,7 +208,7 @@ pub fn read_stated(
     joints: &[Expr],
     stated: &Stated<'_>,
 ) -> Code {
-    let asked = Asked { names, joints, stated, mended: &BTreeMap::new(), posed: None };
+    let asked = Asked { names, joints, stated, mended: &BTreeMap::new(), posed: None, own: None };
     read_blocks(text, &[span], language, &asked).pop().unwrap_or_default()
 }
 
@@ -221,6 +225,8 @@ pub struct Asked<'a> {
     pub mended: &'a BTreeMap<usize, Vec<Expr>>,
     /// How it is read where it is told of a pose, and gives joints their values.
     pub posed: Option<Posed<'a>>,
+    /// What functions give that are the robot's own.
+    pub own: Option<&'a OwnFunction<'a>>,
 }
 
 /// Reads the blocks of one program, as the cells of a notebook are: a name keeps its value in those that follow.
@@ -267,6 +273,11 @@ pub fn read_blocks(text: &str, spans: &[Range<usize>], language: Dialect, asked:
         let of = |s: &Range<usize>| s.start <= e.span.start && e.span.start <= s.end;
         let k = spans.iter().position(of).unwrap_or(0);
         codes[k].refusals.push(e);
+    }
+    for c in machine.compared {
+        let of = |s: &Range<usize>| s.start <= c.span.start && c.span.start <= s.end;
+        let k = spans.iter().position(of).unwrap_or(0);
+        codes[k].compared.push(c);
     }
     for code in &mut codes {
         code.refusals.sort_by_key(|e| (e.span.start, e.span.end));
@@ -438,6 +449,15 @@ fn arguments<'a>(
     {
         slots.insert(q.name.as_str(), machine.joint_vector(&q.span));
         slots.extend(others.iter().map(|p| p.name.as_str()).zip(vectors));
+        unknown.clear();
+    }
+    // Beside all joints by their names the vector of their rates, or of a force.
+    if !unknown.is_empty()
+        && takes_all()
+        && let Some(vectors) =
+            unknown.iter().map(|p| beside(p, rates.as_deref(), machine)).collect::<Option<Vec<_>>>()
+    {
+        slots.extend(unknown.iter().map(|p| p.name.as_str()).zip(vectors));
         unknown.clear();
     }
     match unknown.as_slice() {

@@ -144,8 +144,10 @@ impl Parser<'_> {
         match word.as_str() {
             "pass" => self.skipped(),
             "assert" => {
+                self.at += 1;
+                let asserted = self.expression();
                 self.skip_line();
-                Ok(StatementKind::Pass)
+                Ok(asserted.map_or(StatementKind::Pass, StatementKind::Assert))
             }
             "break" => self.skipped().map(|_| StatementKind::Break),
             "continue" => self.skipped().map(|_| StatementKind::Continue),

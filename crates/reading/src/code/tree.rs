@@ -139,6 +139,8 @@ pub(super) enum StatementKind {
     Augment(Node, Op, Node),
     /// An expression by itself.
     Show(Node),
+    /// What a test holds to be true.
+    Assert(Node),
     Return(Option<Node>),
     For(Node, Node, Vec<Statement>),
     If(Vec<(Node, Vec<Statement>)>, Vec<Statement>),
@@ -183,6 +185,7 @@ pub(super) fn changed<'a>(statements: &'a [Statement], names: &mut Vec<&'a str>)
             | StatementKind::ImportAll(_)
             | StatementKind::Break
             | StatementKind::Continue
+            | StatementKind::Assert(_)
             | StatementKind::Pass => {}
             StatementKind::Raise => leaves = true,
         }

@@ -88,7 +88,7 @@ impl RateFormulas {
     fn by_plan(
         matrix: &Jacobian<Expr>,
         joints: &[String],
-        (blocks, plan): (Blocks, Vec<(Vec<usize>, Vec<usize>)>),
+        (blocks, plan): (Blocks, Plan),
         order: &[Symbol],
     ) -> Result<Option<Self>, Refusal> {
         let mut found = RateFormulas { blocks, steps: vec![], conditions: vec![], is_proved: true };
@@ -128,14 +128,14 @@ impl RateFormulas {
     }
 }
 
+/// Rows with the joints that they give, block after block.
+type Plan = Vec<(Vec<usize>, Vec<usize>)>;
+
 /// Rows and the joints that are open in them, as many of these as of those, the smallest blocks first; `None` if some joint is in
 /// no such block.
-fn by_rows(
-    matrix: &Jacobian<Expr>,
-    order: &[Symbol],
-) -> Result<Option<Vec<(Vec<usize>, Vec<usize>)>>, Refusal> {
+fn by_rows(matrix: &Jacobian<Expr>, order: &[Symbol]) -> Result<Option<Plan>, Refusal> {
     let n = matrix.columns.len();
-    let (mut plan, mut open_rows): (Vec<(Vec<usize>, Vec<usize>)>, Vec<usize>) = (vec![], (0..6).collect());
+    let (mut plan, mut open_rows): (Plan, Vec<usize>) = (vec![], (0..6).collect());
     let mut open: Vec<usize> = (0..n).collect();
     'next: while !open.is_empty() {
         for size in 1..=LARGEST.min(open.len()) {

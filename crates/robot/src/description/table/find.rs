@@ -3,6 +3,7 @@
 use super::columns::{Role, column};
 use super::layout::number_before;
 use super::{TableKind, latex, lines};
+use crate::description::units::unit_named;
 use std::ops::Range;
 
 /// A cell of a grid: its text and place, without the space around it.
@@ -98,7 +99,7 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
         if loose && (line.is_empty() || line.starts_with('#')) {
             continue;
         }
-        let cells = match separator {
+        let mut cells = match separator {
             Separator::Field(delimiter) => split_fields(text, span.clone(), delimiter),
             _ => split_pipes(text, span.clone()),
         };
@@ -132,6 +133,9 @@ fn blocks(text: &str, separator: Separator, loose: bool) -> Vec<Grid> {
             Some(grid) => is_row(line, &cells, grid, loose),
             None => cells.len() >= 3 || separator == Separator::Pipe && is_framed(line),
         };
+        if grid.is_some() && open && separator == Separator::Pipe && !line.ends_with('|') {
+            cells.last_mut().into_iter().for_each(|cell| *cell = before_words(text, cell));
+        }
         match grid {
             _ if !open => {}
             Some(grid) => {
@@ -293,6 +297,18 @@ fn before_remark(text: &str, span: Range<usize>) -> Range<usize> {
     let Some(at) = line.rfind(open) else { return span };
     let is_one = !line[at + open.len()..line.len() - 1].contains(['(', ')', '[', ']']);
     if is_one && !line[..at].trim().is_empty() { span.start..span.start + at } else { span }
+}
+
+/// A cell without the words that stand apart behind it: `th1      slewing ring`.
+fn before_words(text: &str, cell: &GridCell) -> GridCell {
+    let shown = cell.text.as_str();
+    let Some(at) = shown.find("  ") else { return cell.clone() };
+    let word: String = shown[at..].trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
+    let is_word = word.chars().count() > 2 && unit_named(&word).is_none();
+    match is_word && text.get(cell.span.clone()).is_some_and(|own| own == shown) {
+        true => GridCell::of(text, cell.span.start..cell.span.start + at),
+        false => cell.clone(),
+    }
 }
 
 /// True for a line of nothing but heads of columns.

@@ -39,6 +39,13 @@ pub(super) fn joints(
         let found = joint(row, convention.length_z(), starred, &joints, out);
         joints.push(found.unwrap_or(Joint::Fixed));
     }
+    if !starred && let Some(names) = counted_apart(rows, &joints) {
+        for (joint, name) in joints.iter_mut().zip(names) {
+            if let Some(name) = name {
+                *joint = Joint::Moves(JointKind::Revolute, Some(name));
+            }
+        }
+    }
     check_owners(rows, &joints, convention.length_z(), out);
     let is_silent = rows.len() <= MOST_BY_WORDS
         && !starred
@@ -66,6 +73,37 @@ pub(super) fn joints(
         }
     }
     joints
+}
+
+/// The variables of a table that counts its angles apart, `s`, θ1, θ2 or a fixed row and θ1, θ2: one letter, numbered from 1 on
+/// where θ is no number. Nothing where the numbers are those of the rows, or a row says itself what moves.
+fn counted_apart(rows: &[ReadRow], joints: &[Joint]) -> Option<Vec<Option<String>>> {
+    let mut names: Vec<Option<String>> = vec![];
+    let (mut stem, mut count, mut is_own) = (None, 0, true);
+    for row in rows {
+        if says_what_moves(row) {
+            return None;
+        }
+        let name = match &row.theta.cell.symbols[..] {
+            [] => {
+                names.push(None);
+                continue;
+            }
+            [(name, _)] => name,
+            _ => return None,
+        };
+        let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        count += 1;
+        if name[letters.len()..].parse() != Ok(count) || stem.get_or_insert(letters) != &letters {
+            return None;
+        }
+        is_own &= row.number == count;
+        names.push(Some(name.clone()));
+    }
+    // What slides by the number of its row counts as all joints do.
+    let slides = |j: &Joint| matches!(j, Joint::Moves(JointKind::Prismatic, Some(n)) if n.ends_with(|c: char| c.is_ascii_digit()));
+    let is_angle = stem.is_some_and(|s| matches!(s, "theta" | "t" | "th" | "phi" | "q"));
+    (is_angle && count > 1 && !is_own && !joints.iter().any(slides)).then_some(names)
 }
 
 /// The letter of a joint that turns, without its number.

@@ -252,9 +252,8 @@ impl Samples {
     pub(crate) fn pose_directions(&self) -> [[f64; 12]; 6] {
         let atoms = self.first();
         let mut found = [[0.0; 12]; 6];
-        for axis in 0..3 {
+        for (axis, d) in found.iter_mut().take(3).enumerate() {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-            let d = &mut found[axis];
             for column in 0..3 {
                 // e × column
                 d[i * 4 + column] = -atoms[j * 4 + column];
