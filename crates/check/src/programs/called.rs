@@ -79,7 +79,24 @@ impl Program<'_> {
             let is_plain = matches!(cell.value.node(), Node::Sin(_) | Node::Cos(_));
             let is_formula =
                 source.contains(['+', '-', '*', '/']) && !is_plain && in_radians(cell.value) == pair.value;
-            if is_formula && !touches(judged, &a.span) && !touches(&found, &a.span) {
+            // What stands in another entry that is right is no entry alone: the slip is where it was put.
+            let is_right_elsewhere = || {
+                let others = judged.iter().flat_map(|a| &a.pieces).filter_map(|p| match p {
+                    Piece::Pair(other) if other.span != pair.span => Some(other),
+                    _ => None,
+                });
+                let uses = |other: &&Pair| {
+                    let source = self.text.get(other.span.clone()).unwrap_or_default();
+                    other.span.start > a.span.end && words(source).any(|w| w == name)
+                };
+                others.filter(uses).any(|o| equal(o.value, o.wanted).is_equal())
+            };
+            let is_right = || equal(pair.value, pair.wanted).is_equal();
+            if is_formula
+                && !touches(judged, &a.span)
+                && !touches(&found, &a.span)
+                && (is_right() || !is_right_elsewhere())
+            {
                 let pieces = vec![self.piece(None, cell, pair.wanted)];
                 found.push(self.assertion(&a.name, About::Entry, &a.span, pieces, None));
             }

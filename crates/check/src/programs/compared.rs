@@ -1,8 +1,10 @@
 //! What the tests of a program expect, `assert_allclose(arm.fkine(q), expected)`: numbers held against the robot at the joints that the
 //! test has.
 
+use super::called::given_in;
 use super::{Programs, Source};
 use crate::facts::About;
+use crate::lexis::Lexis;
 use crate::matrix::Matrix;
 use crate::numbers::{Answer, Configuration, half_unit};
 use crate::subject::Subject;
@@ -37,20 +39,37 @@ const JACOBIANS: [&str; 6] =
 const TESTS: [&str; 6] = ["assert", "EXPECT_", "ASSERT_", "CHECK", "REQUIRE", "verifyEqual"];
 
 /// Adds what the tests of a program expect.
-pub(super) fn tests(of: &Source<'_>, subject: &Rc<Subject>, asked: &Asked<'_>, found: &mut Programs) {
+pub(super) fn tests(
+    of: &Source<'_>,
+    (subject, lexis): (&Rc<Subject>, &Lexis),
+    asked: &Asked<'_>,
+    found: &mut Programs,
+) {
     let source = |b: &Range<usize>| of.source.get(b.clone()).unwrap_or_default();
     if !of.blocks.iter().any(|b| TESTS.iter().any(|t| source(b).contains(t))) {
         return;
     }
     // A function of the text that is judged stands for what it should give.
-    let judged: Vec<(String, Matrix)> = found
-        .assertions
-        .iter()
-        .filter_map(|a| Some((a.name.strip_suffix("(…)")?.to_string(), a.whole.clone()?)))
+    let plain = Asked { stated: &|_, _| None, ..*asked };
+    let codes: Vec<Code> = read_blocks(of.source, of.blocks, of.language, &plain);
+    let functions = || codes.iter().flat_map(|c| &c.functions);
+    let judged: Vec<(&str, &Matrix)> = functions()
+        .filter_map(|f| {
+            let [returned] = &f.returned[..] else { return None };
+            let touches = |a: &&Assertion| {
+                [&returned.span, &f.span].into_iter().all(|s| a.span.start < s.end && s.start < a.span.end)
+                    || f.assigned.iter().any(|b| b.span == a.span && returned.name.as_ref() == Some(&b.name))
+            };
+            let own = found.assertions.iter().filter(|a| a.subject == of.number).find(touches)?;
+            Some((f.name.as_str(), own.whole.as_ref()?))
+        })
+        .filter(|(name, _)| !name.is_empty())
         .collect();
+    let lengths: Vec<(Symbol, Expr)> =
+        functions().filter(|f| f.name.is_empty()).flat_map(|f| given_in(f, subject, lexis)).collect();
     let own = |name: &str, call: usize, is_defined: bool| -> Option<Vec<Vec<Expr>>> {
         let rows: Matrix = match name {
-            _ if is_defined => judged.iter().find(|j| j.0 == name)?.1.clone(),
+            _ if is_defined => Matrix::clone(judged.iter().find(|j| j.0 == name)?.1),
             _ if POSES.contains(&name) => Matrix::of(&subject.pose()),
             _ if JACOBIANS.contains(&name) => {
                 let rows = subject.geometric_rows(Reference::Tool, subject.ground());
@@ -58,10 +77,15 @@ pub(super) fn tests(of: &Source<'_>, subject: &Rc<Subject>, asked: &Asked<'_>, f
             }
             _ => return None,
         };
-        let of_call = |e: Expr| e.substitute(|s| is_joint(s, subject).then(|| of_call(s, call).into()));
+        let of_call = |e: Expr| {
+            e.substitute(|s| match is_joint(s, subject) {
+                true => Some(of_call(s, call).into()),
+                false => lengths.iter().rev().find(|l| l.0 == s).map(|l| l.1),
+            })
+        };
         rows.0.into_iter().map(|r| r.into_iter().map(|e| Some(of_call(e?))).collect()).collect()
     };
-    let asked = Asked { stated: &|_, _| None, own: Some(&own), ..*asked };
+    let asked = Asked { own: Some(&own), ..plain };
     let codes: Vec<Code> = read_blocks(of.source, of.blocks, of.language, &asked);
     let assigned = || codes.iter().flat_map(|c| &c.functions).flat_map(|f| &f.assigned);
     let is_called = |v: &Value| cells(v).iter().flat_map(|c| c.value.symbols()).any(|s| call_of(s).is_some());

@@ -195,7 +195,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     found.defined = defined(source, &codes, &found.assertions, number);
     let telling = Telling { subject, habits, lexis, functions: of.posed };
     posed::solutions(of, &telling, &asked, &mut found);
-    compared::tests(of, subject, &asked, &mut found);
+    compared::tests(of, (subject, lexis), &asked, &mut found);
     found
 }
 

@@ -165,3 +165,16 @@ fn rows_in_words_are_listed() {
     assert!(is_listed(&found, text, "row 1: -a1 s1") && is_listed(&found, text, "row 2: a1 c1"));
     assert!(!is_listed(&found, text, "chapter 3: tea"));
 }
+
+/// A scalar that is right in some entries of a matrix and wrong in another is not at fault: the entry is.
+#[test]
+fn a_scalar_that_is_right_elsewhere_is_not_at_fault() {
+    let program = "# standard DH\n#  i   theta  d  a  alpha\n#  1   q1     H  L0 90°\n#  2   q2     0  L1 0\nimport numpy as np\nfrom math import sin, cos\n\
+                   def jac(q1, q2):\n    reach = L0 + L1*cos(q2)\n    return np.array([[-sin(q1)*reach, -cos(q1)*L1*sin(q2)],\n                     \
+                   [cos(q1)*reach, -sin(q1)*L1*sin(q2)],\n                     [0, reach]])\n";
+    let found = read(program, Some(Dialect::Python));
+    assert_eq!(standings(&found), [("jac(…)", Standing::Wrong)]);
+    let wrong: Vec<_> =
+        found.claims[0].entries.iter().filter(|e| e.finding.standing() == Standing::Wrong).collect();
+    assert_eq!(wrong.iter().map(|e| e.place).collect::<Vec<_>>(), [Some((3, 2))]);
+}
