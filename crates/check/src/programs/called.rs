@@ -87,7 +87,7 @@ impl Program<'_> {
                 });
                 let uses = |other: &&Pair| {
                     let source = self.text.get(other.span.clone()).unwrap_or_default();
-                    other.span.start > a.span.end && words(source).any(|w| w == name)
+                    other.span.start > a.span.end && super::words(source).any(|w| w == name)
                 };
                 others.filter(uses).any(|o| equal(o.value, o.wanted).is_equal())
             };
