@@ -4,6 +4,7 @@ import "./robots.mjs";
 import "./tree.mjs";
 import "./meshes.mjs";
 import "./table.mjs";
+import "./steps.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";

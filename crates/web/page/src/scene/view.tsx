@@ -13,6 +13,7 @@ import { Gizmo } from "./gizmo.ts";
 import { addLooks, wholeTrees } from "./looks.ts";
 import { Notes } from "./notes.tsx";
 import { addPath } from "./path.ts";
+import { runSteps } from "../steps/walk.ts";
 import { runPlayer } from "./player.ts";
 import { addPointer } from "./pointer.ts";
 import { addRow } from "./row.ts";
@@ -120,6 +121,7 @@ export function SceneView() {
   }, []);
 
   useEffect(runPlayer, []);
+  useEffect(runSteps, []);
 
   useEffect(() => {
     let timer = 0;
