@@ -259,6 +259,7 @@ export interface Look {
   ghosts: boolean;
   workspace: "none" | "section" | "cloud";
   singular: boolean;
+  ellipsoid: boolean;
   path: boolean;
   grid: boolean;
   perspective: boolean;
@@ -271,9 +272,10 @@ export interface Look {
 export const look = signal<Look>({
   frames: true,
   labels: true,
-  ghosts: true,
+  ghosts: false,
   workspace: "none",
   singular: false,
+  ellipsoid: false,
   path: true,
   grid: true,
   perspective: true,

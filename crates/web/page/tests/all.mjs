@@ -1,5 +1,6 @@
 // All tests of the page, in one browser: `node --test tests/all.mjs`.
 import "./figures.mjs";
+import "./first.mjs";
 import "./robots.mjs";
 import "./tree.mjs";
 import "./meshes.mjs";
@@ -10,8 +11,10 @@ import "./hand.mjs";
 import "./formulas.mjs";
 import "./path.mjs";
 import "./weight.mjs";
+import "./mobility.mjs";
 import "./check.mjs";
 import "./share.mjs";
+import "./embed.mjs";
 import "./input.mjs";
 import "./export.mjs";
 import "./access.mjs";

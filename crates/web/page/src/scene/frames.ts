@@ -47,6 +47,8 @@ function named(now: Scene): { frame: Matrix; name: string; index: number }[] {
 
 function draw(stage: Stage, strokes: Strokes, now: Scene, palette: Palette, row: number | null, hasLabels: boolean): void {
   const labels: Label[] = [];
+  /** Axes that end at the same point have one label: `z_0,1`. */
+  const ends = new Map<string, Label>();
   for (const { frame, name, index } of named(now)) {
     // Of a row that is explained only its two frames matter, and they are named by the row.
     const isOfRow = row !== null && (index === row || index === row + 1);
@@ -56,7 +58,15 @@ function draw(stage: Stage, strokes: Strokes, now: Scene, palette: Palette, row:
     const origin = originOf(frame);
     for (const k of [0, 2] as const) {
       const axis = axisOf(frame, k);
-      labels.push({ text: `${NAMES[k]}_${name}`, at: add(origin, axis, length), toward: scale(axis, now.unit), colour: palette[NAMES[k]], size: 14, rank: k });
+      const place = [...origin, ...axis].map((x) => Math.round(x * 1e5)).join() + NAMES[k];
+      const there = ends.get(place);
+      if (there) {
+        there.text += `,${name}`;
+        continue;
+      }
+      const label: Label = { text: `${NAMES[k]}_${name}`, at: add(origin, axis, length), toward: scale(axis, now.unit), colour: palette[NAMES[k]], size: 14, rank: k };
+      ends.set(place, label);
+      labels.push(label);
     }
   }
   stage.labels.set("frames", labels);

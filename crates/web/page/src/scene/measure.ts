@@ -17,6 +17,8 @@ export interface Measures {
   /** How many ghosts, labels stand in the picture. */
   ghosts: number;
   labels: number;
+  /** Where they stand, and what covers the picture, pixels of the canvas. */
+  places: { x: number; y: number; width: number; height: number }[];
   /** How many pieces of bodies are there to be drawn; how often all of a tree's were. */
   bodies: number;
   trees: number;
@@ -44,6 +46,7 @@ export const measures: Measures = {
   software: false,
   ghosts: 0,
   labels: 0,
+  places: [],
   bodies: 0,
   trees: 0,
   box: () => [],

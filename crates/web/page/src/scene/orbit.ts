@@ -143,9 +143,27 @@ export class Orbit {
     this.view = { ...this.view, distance, target: add(this.view.target, shift) };
   }
 
-  /** The distance from which a ball is seen whole. */
-  distanceFor(radius: number): number {
-    return radius / Math.sin(HALF_ANGLE);
+  /** Goes to where points fill the picture within its edges (pixels), seen from the same side. */
+  frame(points: Point[], edges: { top: number; right: number; bottom: number; left: number }, lasts: number): void {
+    const to = this.#goal?.to ?? this.view;
+    const { right, up, back } = directions(to.azimuth, to.elevation);
+    const seen = points.map((p) => ({ x: dot(p, right), y: dot(p, up), z: dot(p, back) }));
+    const depths = seen.map(({ z }) => z);
+    const middle = (Math.min(...depths) + Math.max(...depths)) / 2;
+    // What is seen at the distance 1: half the height, half the width.
+    const half = Math.tan(HALF_ANGLE) * Math.max(1, this.height / this.width);
+    const wide = (half * this.width) / this.height;
+    // A point is seen if −low (D − z) ≤ x − x₀ ≤ high (D − z): the distance D and the place x₀ where that is so for all.
+    const range = (key: "x" | "y", low: number, high: number) => {
+      const most = Math.max(...seen.map((p) => p[key] + (this.perspective ? high * (p.z - middle) : 0)));
+      const least = Math.min(...seen.map((p) => p[key] - (this.perspective ? low * (p.z - middle) : 0)));
+      return { distance: (most - least) / (low + high), at: (distance: number) => (most - high * distance + least + low * distance) / 2 };
+    };
+    const across = range("x", wide * (1 - (2 * edges.left) / this.width), wide * (1 - (2 * edges.right) / this.width));
+    const upward = range("y", half * (1 - (2 * edges.bottom) / this.height), half * (1 - (2 * edges.top) / this.height));
+    const distance = Math.max(1e-3, across.distance, upward.distance);
+    const target = add(add(scale(right, across.at(distance)), up, upward.at(distance)), back, middle);
+    this.go({ azimuth: to.azimuth, elevation: to.elevation, distance, target }, lasts);
   }
 
   /** Goes to a view, in a moment or at once. */

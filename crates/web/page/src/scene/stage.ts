@@ -2,7 +2,7 @@
 
 import { ColorManagement, LinearSRGBColorSpace, Scene, WebGLRenderer, type Object3D } from "three";
 import { hasPicture, effect } from "../state.ts";
-import { Labels } from "./labels.ts";
+import { Labels, type Slot } from "./labels.ts";
 import { measures } from "./measure.ts";
 import { Orbit } from "./orbit.ts";
 import { pixels } from "./strokes.ts";
@@ -173,12 +173,22 @@ export class Stage {
     const dirty = [...this.#dirty.values()];
     this.#dirty.clear();
     for (const draw of dirty) draw();
-    this.labels.layout(this.orbit);
+    this.labels.layout(this.orbit, this.#covered());
     this.#renderer.render(this.#scene, this.orbit.camera);
     measures.frames += 1;
     if (measures.frames === 1) setTimeout(hasPicture);
     measures.calls = this.#renderer.info.render.calls;
     measures.triangles = this.#renderer.info.render.triangles;
+  }
+
+  /** Where notes, the cube and the tool bar stand over the picture. */
+  #covered(): Slot[] {
+    const own = this.canvas.getBoundingClientRect();
+    const over = this.canvas.parentElement?.querySelectorAll(".scene-cube, .scene-row, .scene-chip, .scene-tools") ?? [];
+    return [...over].map((one) => {
+      const { left, top, width, height } = one.getBoundingClientRect();
+      return { x: left - own.left, y: top - own.top, width, height };
+    });
   }
 
   /** Fewer pixels while frames are slow. */

@@ -2,6 +2,7 @@
 
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { addEllipsoid } from "../mobility/picture.ts";
 import { answerNow, effect, look, q, robot, scene } from "../state.ts";
 import { addArm } from "./arm.ts";
 import { isAskedFor, present } from "./camera.ts";
@@ -13,15 +14,12 @@ import { Gizmo } from "./gizmo.ts";
 import { addLooks, wholeTrees } from "./looks.ts";
 import { Notes } from "./notes.tsx";
 import { addPath } from "./path.ts";
-import { runSteps } from "../steps/walk.ts";
-import { runPlayer } from "./player.ts";
 import { addPointer } from "./pointer.ts";
 import { addRow } from "./row.ts";
 import { graphics, Stage } from "./stage.ts";
 import { addSkeleton } from "./skeleton.ts";
 import { Toolbar } from "./toolbar.tsx";
-import { FACES } from "./orbit.ts";
-import { fit } from "./view-fit.ts";
+import { firstLook, fit } from "./view-fit.ts";
 import { describe } from "./words.ts";
 import { addWorkspace } from "./workspace.ts";
 
@@ -37,6 +35,7 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   addSkeleton(stage);
   addRow(stage);
   addGhosts(stage);
+  addEllipsoid(stage);
   addWorkspace(stage);
   addPath(stage);
   addPointer(stage, new Gizmo(stage));
@@ -52,8 +51,10 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
       const model = robot.value;
       if (!model || !scene.value || name === model.robot) return;
       name = model.robot;
-      if (!first) stage.orbit.go({ azimuth: FACES.corner[0], elevation: FACES.corner[1] }, 0);
-      if (!(first && isAskedFor())) fit(stage, false);
+      if (!(first && isAskedFor())) {
+        stage.orbit.go(firstLook(scene.value), 0);
+        fit(stage, false);
+      }
       first = false;
     }),
   );
@@ -119,9 +120,6 @@ export function SceneView() {
       made.end();
     };
   }, []);
-
-  useEffect(runPlayer, []);
-  useEffect(runSteps, []);
 
   useEffect(() => {
     let timer = 0;
