@@ -6,6 +6,7 @@ import "./tree.mjs";
 import "./meshes.mjs";
 import "./table.mjs";
 import "./steps.mjs";
+import "./graphics.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";

@@ -1,7 +1,7 @@
 // The picture itself: the renderer, what is drawn when, and how finely. Nothing is drawn unless something changed.
 
 import { ColorManagement, LinearSRGBColorSpace, Scene, WebGLRenderer, type Object3D } from "three";
-import { hasPicture, effect } from "../state.ts";
+import { hasPicture, effect, signal } from "../state.ts";
 import { Labels, type Slot } from "./labels.ts";
 import { measures } from "./measure.ts";
 import { Orbit } from "./orbit.ts";
@@ -47,7 +47,8 @@ export class Stage {
   #moving: number;
   #size = { width: 0, height: 0 };
   #ends: (() => void)[] = [];
-  #lost = false;
+  /** The browser has taken the picture away, as it does when another program wants the graphics card. */
+  readonly isLost = signal(false);
 
   constructor(canvas: HTMLCanvasElement, software: boolean) {
     this.canvas = canvas;
@@ -72,11 +73,17 @@ export class Stage {
     );
     const lost = (event: Event) => {
       event.preventDefault();
-      this.#lost = true;
+      this.isLost.value = true;
+      // What was to be drawn is drawn when it is back.
+      cancelAnimationFrame(this.#pending);
+      clearTimeout(this.#rest);
+      this.#pending = 0;
     };
     const found = () => {
-      this.#lost = false;
-      this.invalidate();
+      this.isLost.value = false;
+      // A new context begins with its own colour behind all.
+      this.#clear(colours.peek().background);
+      this.viewChanged();
     };
     canvas.addEventListener("webglcontextlost", lost);
     canvas.addEventListener("webglcontextrestored", found);
@@ -144,7 +151,7 @@ export class Stage {
   }
 
   invalidate(): void {
-    if (this.#pending || this.#lost) return;
+    if (this.#pending || this.isLost.peek()) return;
     this.#pending = requestAnimationFrame((now) => {
       this.#pending = 0;
       this.#frame(now);
@@ -152,7 +159,7 @@ export class Stage {
   }
 
   #frame(now: number): void {
-    if (this.#lost || this.#size.width === 0) return;
+    if (this.isLost.peek() || this.#size.width === 0) return;
     const begun = performance.now();
     const isOnTheWay = this.orbit.step(now);
     this.#adapt(now);
@@ -206,7 +213,7 @@ export class Stage {
   /** The picture stands still: once more, finely. */
   #settle(): void {
     measures.intervalMs = 0;
-    if (this.#lost || this.#pending || this.#finest === this.#moving) return;
+    if (this.isLost.peek() || this.#pending || this.#finest === this.#moving) return;
     this.#apply(this.#finest);
     this.#draw();
   }

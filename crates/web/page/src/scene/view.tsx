@@ -1,7 +1,8 @@
 // The scene on the page: the canvas with everything in it, and what stands around the canvas.
 
 import { useComputed, useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Button } from "../widgets/button.tsx";
 import { addEllipsoid } from "../mobility/picture.ts";
 import { answerNow, effect, look, q, robot, scene } from "../state.ts";
 import { addArm } from "./arm.ts";
@@ -87,7 +88,13 @@ function onKey(stage: Stage, event: KeyboardEvent): void {
   stage.viewChanged();
 }
 
+/** A picture that does not come back by itself is made anew. */
 export function SceneView() {
+  const [time, again] = useState(0);
+  return <Picture key={time} again={() => again(time + 1)} />;
+}
+
+function Picture({ again }: { again: () => void }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useSignal<Stage | null>(null);
   const words = useSignal("Scene");
@@ -151,6 +158,12 @@ export function SceneView() {
       />
       {stage.value && <Cube stage={stage.value} />}
       <Notes />
+      {stage.value?.isLost.value && (
+        <p class="over-scene" role="alert">
+          The browser has taken the picture away; it mostly comes back by itself.
+          <Button label="Draw it again" small onClick={again} />
+        </p>
+      )}
       {stage.value && <Toolbar stage={stage.value} />}
     </div>
   );
