@@ -4,6 +4,7 @@ import { render } from "preact";
 import { App } from "./app.tsx";
 import { asked } from "./asked.ts";
 import { load } from "./engine/client.ts";
+import { lookIfKept } from "./kept.ts";
 import { openListed, openText } from "./panels/robots.tsx";
 import { keepAddress, restoreAddress } from "./share.ts";
 import { keepPreferences, phase } from "./shell.ts";
@@ -36,7 +37,9 @@ async function main(): Promise<void> {
   phase.value = { kind: "ready" };
   // Where nothing can be drawn the arm is solved all the same.
   setTimeout(hasPicture, 1500);
-  if (asked.embedded === null) keepAddress();
+  if (asked.embedded !== null) return;
+  keepAddress();
+  void lookIfKept();
 }
 
 /** The panel and the row that the address asks for. */

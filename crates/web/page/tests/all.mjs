@@ -16,6 +16,7 @@ import "./mobility.mjs";
 import "./check.mjs";
 import "./share.mjs";
 import "./embed.mjs";
+import "./offline.mjs";
 import "./input.mjs";
 import "./export.mjs";
 import "./access.mjs";
