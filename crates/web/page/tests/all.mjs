@@ -7,6 +7,7 @@ import "./meshes.mjs";
 import "./table.mjs";
 import "./steps.mjs";
 import "./graphics.mjs";
+import "./game.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";

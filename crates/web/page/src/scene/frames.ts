@@ -1,6 +1,7 @@
 // The frames of the table as axes with their names, the tool's frame, and the frame where the hand is wanted.
 
 import type { Matrix, Scene } from "../engine/types.ts";
+import { game } from "../game/game.ts";
 import { look, playing, pose, scene, selected, target } from "../state.ts";
 import { add, apart, axisOf, originOf, scale } from "./geometry.ts";
 import { inBodies } from "./looks.ts";
@@ -78,7 +79,7 @@ export function addFrames(stage: Stage): void {
   stage.onEnd(() => strokes.dispose());
   stage.watch(
     "frames",
-    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames, row: selected.value, hasLabels: look.value.labels && !playing.value, isInside: inBodies.value }),
+    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames && game.value === null, row: selected.value, hasLabels: look.value.labels && !playing.value, isInside: inBodies.value }),
     ({ now, palette, isShown, row, hasLabels }) => {
       strokes.begin();
       if (now && isShown) draw(stage, strokes, now, palette, row, hasLabels);

@@ -3,6 +3,7 @@
 
 import { signal } from "@preact/signals";
 import type { Matrix, Point } from "../engine/types.ts";
+import { game } from "../game/game.ts";
 import { playing, pose, reach, scene, selected, target } from "../state.ts";
 import { add, axisOf, cross, dot, movedPose, nearestOnLine, norm, onPlane, originOf, perpendicular, type Ray, scale, sub } from "./geometry.ts";
 import { measures } from "./measure.ts";
@@ -57,7 +58,7 @@ export class Gizmo {
     const redraw = () => this.#draw();
     stage.watch(
       "gizmo",
-      () => [pose.value, target.value, handles.value, playing.value, selected.value, colours.value, this.#hovered.value, this.#dragged.value, this.#words.value],
+      () => [pose.value, target.value, handles.value, playing.value, selected.value, game.value, colours.value, this.#hovered.value, this.#dragged.value, this.#words.value],
       redraw,
     );
     stage.onView.add(redraw);
@@ -67,7 +68,7 @@ export class Gizmo {
   /** Where the handles are and along what; nothing while there are none. */
   #place(): Place | null {
     const frame = target.value ?? pose.value;
-    if (!frame || handles.value.mode === "off" || playing.value || selected.value !== null) return null;
+    if (!frame || handles.value.mode === "off" || playing.value || selected.value !== null || game.value !== null) return null;
     const at = originOf(frame);
     const isTool = handles.value.axes === "tool";
     const axes: Place["axes"] = isTool ? [axisOf(frame, 0), axisOf(frame, 1), axisOf(frame, 2)] : [[1, 0, 0], [0, 1, 0], [0, 0, 1]];

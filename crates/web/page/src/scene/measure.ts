@@ -28,6 +28,8 @@ export interface Measures {
   handles: () => Record<string, [number, number]>;
   /** Where the middles of the joints are, pixels of the canvas, in the order of the engine's symbols. */
   joints: () => [number, number][];
+  /** Where the answers of the game are, pixels of the canvas. */
+  answers: () => [number, number][];
 }
 
 declare global {
@@ -52,6 +54,7 @@ export const measures: Measures = {
   box: () => [],
   handles: () => ({}),
   joints: () => [],
+  answers: () => [],
 };
 
 window.denavit = measures;

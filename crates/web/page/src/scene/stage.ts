@@ -34,6 +34,8 @@ export class Stage {
   readonly labels: Labels;
   /** Called when the eye has moved: what keeps its size in pixels. */
   readonly onView = new Set<() => void>();
+  /** A place in the picture that was pressed; whether that was meant for somebody. */
+  onPick: (x: number, y: number) => boolean = () => false;
   /** Whether more is about to be drawn: the fine picture waits for it. */
   awaits = (): boolean => false;
   #renderer: WebGLRenderer;

@@ -3,6 +3,7 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Button } from "../widgets/button.tsx";
+import { addGame } from "../game/picture.ts";
 import { addEllipsoid } from "../mobility/picture.ts";
 import { answerNow, effect, look, q, robot, scene } from "../state.ts";
 import { addArm } from "./arm.ts";
@@ -35,6 +36,7 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   addLooks(stage);
   addSkeleton(stage);
   addRow(stage);
+  addGame(stage);
   addGhosts(stage);
   addEllipsoid(stage);
   addWorkspace(stage);
