@@ -1,5 +1,4 @@
-// From where an arm is looked at first, and a view in which all of it is seen, with some room for it to move; with its
-// workspace where that is shown.
+// A view in which the whole arm is seen, with some room for it to move; with its workspace where that is shown.
 
 import type { Point, Scene } from "../engine/types.ts";
 import { look, robot, scene, workspace } from "../state.ts";
@@ -7,8 +6,6 @@ import { floorOf } from "./arm.ts";
 import { bounds } from "./body.ts";
 import { add, axisOf, originOf, perpendicular, scale, turned, unit } from "./geometry.ts";
 import { corners } from "./looks.ts";
-import { FACES } from "./orbit.ts";
-import { planeOf } from "./planar.ts";
 import type { Stage } from "./stage.ts";
 
 /** What stands over the edges of the picture, pixels: labels above, the tool bar below. */
@@ -16,18 +13,6 @@ const EDGES = { top: 40, right: 30, bottom: 56, left: 30 };
 /** In a small picture the edges take no more of it than this, and that of the tool bar so much. */
 const MOST = 0.14;
 const MOST_BELOW = 0.24;
-
-/** Where to look from at first: an arm that keeps to a plane is seen at a right angle to it. */
-export function firstLook(now: Scene): { azimuth: number; elevation: number } {
-  const normal = planeOf(now);
-  if (normal && Math.abs(normal[2]) > 0.99) return { azimuth: FACES.top[0], elevation: FACES.top[1] };
-  // A plane that stands is seen from its front, where x goes to the right.
-  if (normal && Math.abs(normal[2]) < 0.01) {
-    const side = normal[1] > 1e-9 || (Math.abs(normal[1]) <= 1e-9 && normal[0] < 0) ? -1 : 1;
-    return { azimuth: Math.atan2(side * normal[1], side * normal[0]), elevation: 0 };
-  }
-  return { azimuth: FACES.corner[0], elevation: FACES.corner[1] };
-}
 
 export function fit(stage: Stage, isEased: boolean): void {
   const now = scene.peek();

@@ -21,7 +21,8 @@ import { addRow } from "./row.ts";
 import { graphics, Stage } from "./stage.ts";
 import { addSkeleton } from "./skeleton.ts";
 import { Toolbar } from "./toolbar.tsx";
-import { firstLook, fit } from "./view-fit.ts";
+import { firstLook } from "./first-look.ts";
+import { fit } from "./view-fit.ts";
 import { describe } from "./words.ts";
 import { addWorkspace } from "./workspace.ts";
 
