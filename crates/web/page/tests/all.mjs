@@ -8,6 +8,7 @@ import "./table.mjs";
 import "./steps.mjs";
 import "./graphics.mjs";
 import "./game.mjs";
+import "./beside.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";

@@ -8,6 +8,7 @@ import { CONVENTIONS } from "../table/convention.tsx";
 import { TreePart } from "../tree/dialog.tsx";
 import { type Lying, ofInput } from "../tree/files.ts";
 import { alone, asked, isTree, openTree, read as readTree } from "../tree/open.ts";
+import { stand } from "../beside/beside.ts";
 import { ArmPicture } from "../gallery/picture.tsx";
 import { pictures, unwant, want } from "../gallery/pictures.ts";
 import { Button, Segments } from "../widgets/button.tsx";
@@ -295,9 +296,24 @@ function Catalogue() {
           </div>
         ))}
       </div>
+      {found[at] && (
+        <div class="row-of-buttons end">
+          <Button label="Stand it beside the arm" small hint={`${found[at].title} in the same picture, to be compared`} onClick={() => besideIt(found[at].name)} />
+          <Button label={`Open ${found[at].title}`} kind="main" small onClick={() => take(found[at].name)} />
+        </div>
+      )}
       {found.length === 0 && <p class="quiet">No robot of the catalogue is called so. Its table can be pasted, or typed from an empty one.</p>}
     </div>
   );
+}
+
+function besideIt(name: string): void {
+  try {
+    stand(name);
+    dialog.value = null;
+  } catch (why) {
+    said(why);
+  }
 }
 
 /** The picture of a robot, once it has come into view and its turn. */

@@ -6,6 +6,7 @@ import { look, move, robot, scene, selected, singular } from "../state.ts";
 import { isExact, nearness } from "./arm.ts";
 import { rowNow } from "./row.ts";
 import { singularAt } from "./ghosts.ts";
+import { BesideChips } from "../beside/chips.tsx";
 import { StepKeys } from "../steps/player.tsx";
 import { stepNow } from "../steps/walk.ts";
 import { waiting } from "./waiting.ts";
@@ -101,6 +102,7 @@ export function Notes() {
       <RowList />
       <Singulars />
       <div class="scene-chips" role="status">
+        <BesideChips />
         <Waits />
         {isNear.value && <div class="scene-chip scene-chip-near">{isExact(scene.value) ? "Singular" : "Nearly singular"}</div>}
       </div>

@@ -1,10 +1,11 @@
 // A view in which the whole arm is seen, with some room for it to move; with its workspace where that is shown.
 
 import type { Point, Scene } from "../engine/types.ts";
+import { standing } from "../beside/beside.ts";
 import { look, robot, scene, workspace } from "../state.ts";
 import { floorOf } from "./arm.ts";
 import { bounds } from "./body.ts";
-import { add, axisOf, originOf, perpendicular, scale, turned, unit } from "./geometry.ts";
+import { add, axisOf, cross, originOf, perpendicular, scale, turned, unit } from "./geometry.ts";
 import { corners } from "./looks.ts";
 import type { Stage } from "./stage.ts";
 
@@ -35,11 +36,23 @@ function wanted(now: Scene): Point[] {
     if (edge.length > 0) return space.revolves && axis ? edge.flatMap((p) => round(p, axis)) : edge;
   }
   const axes = now.frames.flatMap((frame) => ([0, 2] as const).map((k) => add(originOf(frame), axisOf(frame, k), 3 * now.unit)));
-  const points = [...plateOf(now), ...now.frames.map(originOf), ...axes, ...corners()];
+  const beside = standing.peek().flatMap(({ scene: other }) => [...plateOf(other), ...partsOf(other)]);
+  const points = [...beside, ...plateOf(now), ...now.frames.map(originOf), ...axes, ...corners(), ...partsOf(now)];
   // An arm that is folded up will unfold.
   const { centre, radius } = bounds(now, points);
   const room = 0.36 * (robot.peek()?.reach ?? 0);
-  return radius < room ? [...points, ...ball(centre, room)] : [...points, ...now.bars.flatMap(({ from, to }) => [from, to]), add(now.gripper.at, now.gripper.along, 1.6 * now.unit)];
+  return radius < room ? [...points, ...ball(centre, room)] : points;
+}
+
+/** The ends of its links, joints as thick as they are, and both fingers. */
+function partsOf({ bars, symbols, gripper, unit: size }: Scene): Point[] {
+  const joints = symbols.flatMap(({ centre, axis, half, radius }) => {
+    const [u, v] = [perpendicular(axis), cross(axis, perpendicular(axis))];
+    const edge = [u, v].flatMap((side) => [-radius, radius].map((by) => add(centre, side, by)));
+    return edge.flatMap((p) => [add(p, axis, -half), add(p, axis, half)]);
+  });
+  const tip = add(gripper.at, gripper.along, 1.5 * size);
+  return [...joints, ...bars.flatMap(({ from, to }) => [from, to]), add(tip, gripper.across, 0.85 * size), add(tip, gripper.across, -0.85 * size)];
 }
 
 /** The edge of what the arm stands on, down to the floor. */

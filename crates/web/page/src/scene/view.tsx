@@ -3,6 +3,7 @@
 import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Button } from "../widgets/button.tsx";
+import { addBeside } from "../beside/picture.ts";
 import { addGame } from "../game/picture.ts";
 import { addEllipsoid } from "../mobility/picture.ts";
 import { answerNow, effect, look, q, robot, scene } from "../state.ts";
@@ -31,6 +32,8 @@ const REST = 400;
 
 function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   const stage = new Stage(canvas, isSoftware);
+  // What is to be seen at first has to fit into this.
+  [stage.orbit.width, stage.orbit.height] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight)];
   addFloor(stage);
   addArm(stage);
   addFrames(stage);
@@ -39,6 +42,7 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   addRow(stage);
   addGame(stage);
   addGhosts(stage);
+  addBeside(stage);
   addEllipsoid(stage);
   addWorkspace(stage);
   addPath(stage);
