@@ -12,6 +12,7 @@ import "./beside.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";
+import "./derivation.mjs";
 import "./path.mjs";
 import "./weight.mjs";
 import "./mobility.mjs";

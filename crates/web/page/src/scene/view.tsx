@@ -4,6 +4,7 @@ import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Button } from "../widgets/button.tsx";
 import { addBeside } from "../beside/picture.ts";
+import { addMeaning } from "../formula/meaning-picture.ts";
 import { addGame } from "../game/picture.ts";
 import { addEllipsoid } from "../mobility/picture.ts";
 import { answerNow, effect, look, q, robot, scene } from "../state.ts";
@@ -43,6 +44,7 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   addGame(stage);
   addGhosts(stage);
   addBeside(stage);
+  addMeaning(stage);
   addEllipsoid(stage);
   addWorkspace(stage);
   addPath(stage);
