@@ -48,6 +48,9 @@ pub fn build() -> Result<PathBuf> {
     if app.is_some() {
         sphinx.args(["--tag", "app"]);
     }
+    if web::single().is_some() {
+        sphinx.args(["--tag", "single"]);
+    }
     sphinx.env("PYTHONPATH", &package).env("DENAVIT_VERSION", env!("CARGO_PKG_VERSION"));
     succeed(sphinx.arg(&pages).arg(&site))?;
     match app {
