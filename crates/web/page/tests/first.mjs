@@ -41,6 +41,29 @@ scenario("the first view is the one that fits", async (page) => {
   assert.ok(differing(first, await pictureOf(page)) < 0.002, "it has nothing to mend");
 });
 
+scenario("the card of a row and the arm stand side by side, unless somebody has chosen the view", async (page) => {
+  await openRobot(page, "puma560", { panel: "table" });
+  const { width } = await page.locator("canvas.scene-canvas").boundingBox();
+  assert.ok(width > 700, "there is room for both");
+  const first = await pictureOf(page);
+  const row = page.getByRole("button", { name: /^Row 3, revolute/ });
+  const leftmost = async () => Math.min(...(await page.evaluate(() => window.denavit.joints())).map(([x]) => x));
+  await row.click();
+  const card = await page.locator(".scene-row").boundingBox();
+  const box = await page.locator("canvas.scene-canvas").boundingBox();
+  await until(async () => box.x + (await leftmost()) > card.x + card.width, "all joints stand beside the card");
+  await page.getByRole("button", { name: "Row: show no longer" }).click();
+  await page.mouse.move(1100, 780);
+  await until(async () => differing(first, await pictureOf(page)) < 0.01, "the view is as before");
+  await page.locator("canvas.scene-canvas").focus();
+  await page.keyboard.press("ArrowLeft");
+  await pictureOf(page);
+  const before = await leftmost();
+  await row.click();
+  await pictureOf(page);
+  assert.equal(await leftmost(), before, "a view that was chosen stays");
+});
+
 scenario("other solutions are there when they are asked for", async (page) => {
   await openRobot(page, "staubli-rx90");
   await page.getByRole("button", { name: "Other solutions" }).click();

@@ -38,6 +38,8 @@ export class Orbit {
   readonly camera = new Camera();
   view: View = { azimuth: FACES.corner[0], elevation: FACES.corner[1], distance: 4, target: [0, 0, 0.4] };
   perspective = true;
+  /** Whether somebody has chosen this view: what fits itself leaves it alone then. */
+  isChosen = false;
   width = 1;
   height = 1;
   #right: Point = [1, 0, 0];
@@ -121,6 +123,7 @@ export class Orbit {
   }
 
   turn(dx: number, dy: number): void {
+    this.isChosen = true;
     this.#goal = null;
     const { azimuth, elevation } = this.view;
     const limited = Math.min(RIGHT_ANGLE, Math.max(-RIGHT_ANGLE, elevation + dy));
@@ -129,6 +132,7 @@ export class Orbit {
 
   /** By pixels. */
   pan(dx: number, dy: number): void {
+    this.isChosen = true;
     this.#goal = null;
     const k = (2 * this.#half) / this.height;
     this.view = { ...this.view, target: add(add(this.view.target, this.#right, -dx * k), this.#up, dy * k) };
@@ -136,6 +140,7 @@ export class Orbit {
 
   /** Nearer or farther; the point of the target's plane under (x, y) stays where it is. */
   zoom(factor: number, x = this.width / 2, y = this.height / 2): void {
+    this.isChosen = true;
     this.#goal = null;
     const distance = Math.min(500, Math.max(0.02, this.view.distance * factor));
     const k = ((2 * this.#half) / this.height) * (1 - distance / this.view.distance);
@@ -163,6 +168,7 @@ export class Orbit {
     const upward = range("y", half * (1 - (2 * edges.bottom) / this.height), half * (1 - (2 * edges.top) / this.height));
     const distance = Math.max(1e-3, across.distance, upward.distance);
     const target = add(add(scale(right, across.at(distance)), up, upward.at(distance)), back, middle);
+    this.isChosen = false;
     this.go({ azimuth: to.azimuth, elevation: to.elevation, distance, target }, lasts);
   }
 

@@ -2,7 +2,7 @@
 
 import type { Point, Scene } from "../engine/types.ts";
 import { standing } from "../beside/beside.ts";
-import { look, robot, scene, workspace } from "../state.ts";
+import { look, robot, scene, selected, workspace } from "../state.ts";
 import { floorOf } from "./arm.ts";
 import { bounds } from "./body.ts";
 import { add, axisOf, cross, originOf, perpendicular, scale, turned, unit } from "./geometry.ts";
@@ -11,6 +11,9 @@ import type { Stage } from "./stage.ts";
 
 /** What stands over the edges of the picture, pixels: labels above, the tool bar below. */
 const EDGES = { top: 40, right: 30, bottom: 56, left: 30 };
+/** Where a row is explained its card stands to the left, if there is room for both. */
+const CARD = 258;
+const ROOM = 700;
 /** In a small picture the edges take no more of it than this, and that of the tool bar so much. */
 const MOST = 0.14;
 const MOST_BELOW = 0.24;
@@ -24,7 +27,7 @@ export function fit(stage: Stage, isEased: boolean): void {
 
 function edgesOf({ width, height }: { width: number; height: number }): typeof EDGES {
   const { top, right, bottom, left } = EDGES;
-  return { top: Math.min(top, MOST * height), right: Math.min(right, MOST * width), bottom: Math.min(bottom, MOST_BELOW * height), left: Math.min(left, MOST * width) };
+  return { top: Math.min(top, MOST * height), right: Math.min(right, MOST * width), bottom: Math.min(bottom, MOST_BELOW * height), left: selected.peek() !== null && width >= ROOM ? CARD : Math.min(left, MOST * width) };
 }
 
 /** The points that have to be seen. */

@@ -7,7 +7,7 @@ import { addBeside } from "../beside/picture.ts";
 import { addMeaning } from "../formula/meaning-picture.ts";
 import { addGame } from "../game/picture.ts";
 import { addEllipsoid } from "../mobility/picture.ts";
-import { answerNow, effect, look, q, robot, scene } from "../state.ts";
+import { answerNow, effect, look, q, robot, scene, selected } from "../state.ts";
 import { addArm } from "./arm.ts";
 import { isAskedFor, present } from "./camera.ts";
 import { Cube } from "./cube.tsx";
@@ -71,6 +71,16 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   stage.onEnd(
     effect(() => {
       if (wholeTrees.value > 0) fit(stage, false);
+    }),
+  );
+  // The card of a row takes a part of the picture: a view that nobody has chosen makes room for it.
+  let hadCard = selected.peek() !== null;
+  stage.onEnd(
+    effect(() => {
+      const hasCard = selected.value !== null;
+      if (hasCard === hadCard) return;
+      hadCard = hasCard;
+      if (!stage.orbit.isChosen) fit(stage, true);
     }),
   );
   return stage;
