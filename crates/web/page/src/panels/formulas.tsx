@@ -5,6 +5,7 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/ho
 import type { Formulas, Topic } from "../engine/types.ts";
 import { Blocks } from "../formula/blocks.tsx";
 import { CopyMenu } from "../formula/copy.tsx";
+import { keepFitted } from "../formula/fit.ts";
 import { bind, type Symbols } from "../formula/marks.ts";
 import { CurrentValues } from "../formula/values.ts";
 import { Walk } from "../formula/walk.tsx";
@@ -179,7 +180,11 @@ function Document({ now, dimmed }: { now: { formulas: Formulas; revision: number
   useLayoutEffect(() => {
     const bound = bind(root.current!, formulas.joints, say);
     symbols.current = bound;
-    return () => bound.dispose();
+    const loose = keepFitted(root.current!);
+    return () => {
+      loose();
+      bound.dispose();
+    };
   }, [formulas]);
 
   return (
