@@ -48,10 +48,18 @@ pub fn build() -> Result<PathBuf> {
     if app.is_some() {
         sphinx.args(["--tag", "app"]);
     }
+    if web::single().is_some() {
+        sphinx.args(["--tag", "single"]);
+    }
     sphinx.env("PYTHONPATH", &package).env("DENAVIT_VERSION", env!("CARGO_PKG_VERSION"));
     succeed(sphinx.arg(&pages).arg(&site))?;
     match app {
-        Some(app) => folders::copied(&app, &site.join(VIEW))?,
+        Some(app) => {
+            folders::copied(&app, &site.join(VIEW))?;
+            if let Some(file) = web::single() {
+                fs::copy(&file, site.join(VIEW).join("denavit.html"))?;
+            }
+        }
         None => println!("without the page of `denavit view`, which is not built (`cargo xtask web`)"),
     }
     let mut check = command(&python);

@@ -17,6 +17,8 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// The page, and where it is built to.
 const PAGE: &str = "crates/web/page";
 const SITE: &str = "crates/web/page/dist";
+/// The same in one file, which opens from a disk.
+const SINGLE: &str = "crates/web/page/single/denavit.html";
 /// The engine in parts: what is needed at once, what solves poses, what derives, what reads what others wrote, what writes reports
 /// and source code, and what checks documents.
 const ENGINE: [&str; 6] =
@@ -153,6 +155,7 @@ pub fn run(fast: bool) -> Result<()> {
     divided(&engine, &site)?;
     fs::copy(path("crates/report/assets/maths.woff2"), site.join("maths.woff2"))?;
     briefly(Command::new("node").arg("build.mjs").current_dir(&page))?;
+    briefly(Command::new("node").args(["build.mjs", "--single"]).current_dir(&page))?;
     if fast {
         return Ok(());
     }
@@ -165,6 +168,12 @@ pub fn run(fast: bool) -> Result<()> {
 pub fn built() -> Option<PathBuf> {
     let site = path(SITE);
     site.join("index.html").is_file().then_some(site)
+}
+
+/// The page as a single file, if it is built.
+pub fn single() -> Option<PathBuf> {
+    let file = path(SINGLE);
+    file.is_file().then_some(file)
 }
 
 /// The page as its tests take it, if it can be built here.

@@ -2,6 +2,7 @@
 
 import { Component, type ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
+import { asked } from "./asked.ts";
 import { Divider } from "./divider.tsx";
 import { CheckPanel } from "./panels/check.tsx";
 import { FormulasPanel } from "./panels/formulas.tsx";
@@ -11,9 +12,12 @@ import { PathPanel } from "./panels/path.tsx";
 import { chooseFile, dialog, openFiles, RobotsDialog, saveFile } from "./panels/robots.tsx";
 import { SharePanel } from "./panels/share.tsx";
 import { TablePanel } from "./panels/table.tsx";
+import { runPlayer } from "./scene/player.ts";
 import { SceneView } from "./scene/view.tsx";
+import { address } from "./share.ts";
 import { phase, side } from "./shell.ts";
-import { batch, file, look, type Panel, panel, robot, said, selected, stale } from "./state.ts";
+import { batch, file, look, message, type Panel, panel, robot, said, selected, stale } from "./state.ts";
+import { runSteps } from "./steps/walk.ts";
 import { undoByKey } from "./table/undoing.ts";
 import { TopBar } from "./top.tsx";
 import { ChainBar } from "./tree/chain.tsx";
@@ -34,12 +38,14 @@ const PANELS: { value: Panel; label: string; view: () => ComponentChildren }[] =
   { value: "share", label: "Share", view: () => <SharePanel /> },
 ];
 
+const { embedded } = asked;
+
 export function App() {
   const isReady = phase.value.kind === "ready";
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (phase.value.kind !== "ready" || undoByKey(event)) return;
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
+      if (embedded || !(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey) return;
       const action = { s: saveFile, o: chooseFile, k: () => (dialog.value = { part: "catalogue" }) }[event.key as "s" | "o" | "k"];
       if (!action) return;
       event.preventDefault();
@@ -48,37 +54,68 @@ export function App() {
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);
   }, []);
+  // Clocks run without a picture, too.
+  useEffect(runPlayer, []);
+  useEffect(runSteps, []);
   useEffect(() => {
     document.title = file.value.name ? `${file.value.name} – Denavit` : "Denavit";
   }, [file.value.name]);
 
   return (
-    <div class="page">
-      <TopBar />
+    <div class={embedded ? `page embedded embedded-${embedded}` : "page"}>
+      {!embedded && <TopBar />}
       <main class="work" style={side.value === null ? undefined : { "--side": `${side.value}px` }}>
-        <section class="scene" aria-label="Scene">
-          <ScenePart />
-        </section>
-        <Divider />
-        <section class="side" aria-label="Panels">
-          <Tabs
-            label="Panels"
-            id="side"
-            tabs={PANELS.map(({ value, label }) => ({ value, label, mark: value === "table" && stale.value ? "has errors" : undefined }))}
-            value={panel.value}
-            onChange={turnTo}
-          />
-          <div class="panel" role="tabpanel" id={panelId("side")} aria-labelledby={tabId("side", panel.value)} tabIndex={0} key={panel.value}>
-            {isReady && <Assumed />}
-            {isReady && (panel.value === "table" || panel.value === "joints") && <ChainBar />}
-            {isReady && <Guarded key={panel.value}>{PANELS.find((one) => one.value === panel.value)?.view()}</Guarded>}
-          </div>
-        </section>
+        {embedded !== "panel" && (
+          <section class="scene" aria-label="Scene">
+            <ScenePart />
+          </section>
+        )}
+        {!embedded && <Divider />}
+        {embedded !== "scene" && <Side isReady={isReady} />}
       </main>
-      <StatusLine resting={phase.value.kind === "loading" ? "Loading the engine …" : ""} />
+      {embedded ? <Guest /> : <StatusLine resting={phase.value.kind === "loading" ? "Loading the engine …" : ""} />}
       {isReady && <RobotsDialog />}
       <DropZone />
     </div>
+  );
+}
+
+function Side({ isReady }: { isReady: boolean }) {
+  const now = PANELS.find((one) => one.value === panel.value);
+  const tabbed = embedded ? {} : { role: "tabpanel" as const, id: panelId("side"), "aria-labelledby": tabId("side", panel.value) };
+  return (
+    <section class="side" aria-label={embedded ? now?.label : "Panels"}>
+      {!embedded && (
+        <Tabs
+          label="Panels"
+          id="side"
+          tabs={PANELS.map(({ value, label }) => ({ value, label, mark: value === "table" && stale.value ? "has errors" : undefined }))}
+          value={panel.value}
+          onChange={turnTo}
+        />
+      )}
+      <div class="panel" {...tabbed} tabIndex={0} key={panel.value}>
+        {isReady && <Assumed />}
+        {isReady && (panel.value === "table" || panel.value === "joints") && <ChainBar />}
+        {isReady && <Guarded key={panel.value}>{now?.view()}</Guarded>}
+      </div>
+    </section>
+  );
+}
+
+/** In another page: what went wrong, and the way to the whole page with all that is shown here. */
+function Guest() {
+  const now = message.value;
+  const name = file.value.name;
+  return (
+    <footer class="guest">
+      <span role="status" aria-live="polite" class={now?.severity === "error" ? "status error" : "status"}>
+        {now ? [now.words, now.hint].filter(Boolean).join(" ") : ""}
+      </span>
+      <button type="button" class="button plain small" title={`${name}: open the whole page with all that is shown here`} onClick={() => void address().then((url) => open(url, "_blank", "noopener"))}>
+        {name} in Denavit
+      </button>
+    </footer>
   );
 }
 

@@ -166,7 +166,7 @@ function readPose(value: unknown): Matrix | undefined {
 
 function readLook(value: unknown): Partial<Look> | undefined {
   if (!isRecord(value)) return undefined;
-  const flags = ["frames", "labels", "ghosts", "singular", "path", "grid", "perspective"] as const;
+  const flags = ["frames", "labels", "ghosts", "singular", "ellipsoid", "path", "grid", "perspective"] as const;
   return {
     ...pick(value, flags, (one) => (typeof one === "boolean" ? one : undefined)),
     ...pick(value, ["workspace"], (one) => oneOf(one, "none", "section", "cloud")),

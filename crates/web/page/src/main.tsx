@@ -2,11 +2,13 @@
 
 import { render } from "preact";
 import { App } from "./app.tsx";
+import { asked } from "./asked.ts";
 import { load } from "./engine/client.ts";
+import { lookIfKept } from "./kept.ts";
 import { openListed, openText } from "./panels/robots.tsx";
 import { keepAddress, restoreAddress } from "./share.ts";
 import { keepPreferences, phase } from "./shell.ts";
-import { file, hasPicture, said, start } from "./state.ts";
+import { batch, file, forget, hasPicture, panel, robot, said, selected, show, start, topic } from "./state.ts";
 import { type Bundle, openServed } from "./tree/open.ts";
 
 const FIRST = "staubli-rx90";
@@ -14,7 +16,9 @@ const FIRST = "staubli-rx90";
 async function main(): Promise<void> {
   const root = document.getElementById("app");
   if (!root) return;
-  keepPreferences();
+  if (asked.theme) show({ theme: asked.theme });
+  // A page around this one has its own looks, and nobody chose those of its frame for good.
+  keepPreferences(asked.embedded !== null);
   // The skeleton in the HTML is the same frame: nothing moves when it is replaced.
   root.replaceChildren();
   render(<App />, root);
@@ -29,15 +33,33 @@ async function main(): Promise<void> {
     return;
   }
   await firstRobot();
+  askedView();
   phase.value = { kind: "ready" };
   // Where nothing can be drawn the arm is solved all the same.
   setTimeout(hasPicture, 1500);
+  if (asked.embedded !== null) return;
   keepAddress();
+  void lookIfKept();
 }
 
-/** From the address; else the one that the server gives; else one of the catalogue. */
+/** The panel and the row that the address asks for. */
+function askedView(): void {
+  const rows = robot.value?.rows ?? 0;
+  batch(() => {
+    if (asked.panel) panel.value = asked.panel;
+    if (asked.topic) topic.value = asked.topic;
+    if (asked.row !== null && asked.row < rows) selected.value = asked.row;
+  });
+}
+
+/** From the address, whole or by its name; else the one that the server gives; else one of the catalogue. */
 async function firstRobot(): Promise<void> {
   if (await restoreAddress()) return;
+  if (asked.robot) {
+    openListed(asked.robot);
+    forget();
+  }
+  if (file.value.joints.length > 0) return;
   const given = document.querySelector<HTMLMetaElement>('meta[name="denavit-robot"]')?.content;
   if (given) {
     try {

@@ -28,9 +28,11 @@ export function present(): Shared {
   };
 }
 
-/** The address of this page with everything in it. */
+/** The address of the whole page with everything in it. */
 export async function address(): Promise<string> {
   const url = new URL(location.href);
+  // What was asked for there is in the state by now.
+  url.search = "";
   url.hash = await encode(present());
   return url.href;
 }

@@ -1,5 +1,6 @@
 // What the shell remembers: whether the engine is there, the theme, the width of the side.
 
+import { asked } from "./asked.ts";
 import { computed, effect, look, show, signal } from "./state.ts";
 
 export type Phase =
@@ -24,13 +25,17 @@ export const side = signal<number | null>(null);
 
 const KEPT = "denavit.page";
 
-/** Takes up what this browser kept, and keeps it from now on: theme, units, the width of the side. */
-export function keepPreferences(): void {
+/** Takes up what this browser kept, and keeps it from now on: theme, units, the width of the side. Not where the page is a `guest`. */
+export function keepPreferences(isGuest: boolean): void {
+  effect(() => {
+    document.documentElement.dataset.theme = theme.value;
+  });
+  if (isGuest) return;
   try {
     const kept: unknown = JSON.parse(localStorage.getItem(KEPT) ?? "null");
     if (kept && typeof kept === "object") {
       const { theme: wanted, angles, lengths, side: width } = kept as Record<string, unknown>;
-      if (wanted === "light" || wanted === "dark" || wanted === "system") show({ theme: wanted });
+      if (!asked.theme && (wanted === "light" || wanted === "dark" || wanted === "system")) show({ theme: wanted });
       if (angles === "deg" || angles === "rad") show({ angles });
       if (lengths === "mm" || lengths === "m") show({ lengths });
       if (typeof width === "number" && width >= 320 && width <= 1200) side.value = width;
@@ -38,9 +43,6 @@ export function keepPreferences(): void {
   } catch {
     // What cannot be read is as good as nothing.
   }
-  effect(() => {
-    document.documentElement.dataset.theme = theme.value;
-  });
   effect(() => {
     const { theme: wanted, angles, lengths } = look.value;
     const text = JSON.stringify({ theme: wanted, angles, lengths, side: side.value });

@@ -1,6 +1,6 @@
 // What the page knows, as signals. Panels and the scene read them and call the functions below; nothing else is shared.
 
-import { batch, computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, type Signal, signal } from "@preact/signals";
 import { Cancelled, EngineError, type Engines } from "./engine/client.ts";
 import type { Answer, Finding, Matrix, Path, RobotFile, RobotModel, Scene, Singularity, Topic, Workspace } from "./engine/types.ts";
 
@@ -29,6 +29,17 @@ interface State {
   file: RobotFile;
   q: number[];
   target: Matrix | null;
+  /** Of `undone`, in its order. */
+  others: unknown[];
+}
+
+/** What belongs to other parts of the page and is undone with the rest. */
+const undone: Signal<unknown>[] = [];
+
+/** From now on undoing brings back what this signal had. */
+export function undoes<T>(one: Signal<T>): Signal<T> {
+  undone.push(one as Signal<unknown>);
+  return one;
 }
 
 const past = signal<State[]>([]);
@@ -44,11 +55,12 @@ let changed = 0;
 const PAUSE = 1500;
 
 function here(): State {
-  return { file: file.value, q: q.value, target: target.value };
+  return { file: file.peek(), q: q.peek(), target: target.peek(), others: undone.map((one) => one.peek()) };
 }
 
-function record(of?: string): void {
-  if (file.value.joints.length > 0 && (of === undefined || of !== changing)) past.value = [...past.value, here()].slice(-MOST_UNDO);
+/** Before a change of what `undoes`, or one below; changes of the same thing (`of`) one after another are undone together. */
+export function record(of?: string): void {
+  if (file.peek().joints.length > 0 && (of === undefined || of !== changing)) past.value = [...past.peek(), here()].slice(-MOST_UNDO);
   changing = of;
   future.value = [];
 }
@@ -91,12 +103,16 @@ export function redo(): void {
 
 function back(to: State): void {
   changing = undefined;
-  if (to.file !== file.value) return put(to.file, to);
-  batch(() => {
-    q.value = to.q;
-    target.value = to.target;
-  });
-  solveSoon();
+  if (to.file !== file.value) put(to.file, to);
+  else {
+    batch(() => {
+      q.value = to.q;
+      target.value = to.target;
+    });
+    solveSoon();
+  }
+  // Another robot has let them go.
+  batch(() => undone.forEach((one, k) => (one.value = to.others[k])));
 }
 
 /** Before a motion of joints or hand: its steps are undone together. */
@@ -259,6 +275,7 @@ export interface Look {
   ghosts: boolean;
   workspace: "none" | "section" | "cloud";
   singular: boolean;
+  ellipsoid: boolean;
   path: boolean;
   grid: boolean;
   perspective: boolean;
@@ -271,9 +288,10 @@ export interface Look {
 export const look = signal<Look>({
   frames: true,
   labels: true,
-  ghosts: true,
+  ghosts: false,
   workspace: "none",
   singular: false,
+  ellipsoid: false,
   path: true,
   grid: true,
   perspective: true,

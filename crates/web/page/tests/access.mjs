@@ -48,7 +48,10 @@ const PANELS = {
     await page.getByRole("textbox", { name: "Row 2, theta", exact: true }).fill("q2 + apples");
     await page.locator(".cell-findings").first().waitFor();
   },
-  Joints: async () => {},
+  Joints: async (page) => {
+    await page.getByRole("region", { name: "Distance from singular configurations" }).getByRole("button", { name: "Velocity ellipsoid" }).click();
+    await page.getByText(/^Half axes/).waitFor();
+  },
   Hand: async (page) => {
     await until(async () => (await page.locator(".solution").count()) === 8, "there are eight solutions");
   },
@@ -69,7 +72,7 @@ const PANELS = {
     await page.locator(".claim").first().waitFor();
   },
   Share: async (page) => {
-    for (const summary of await page.locator(".export-panel summary").all()) {
+    for (const summary of await page.locator(".panel summary").all()) {
       if (!(await summary.evaluate((element) => element.parentElement.open))) await summary.click();
     }
     await until(async () => (await page.getByRole("textbox", { name: /^Link/ }).inputValue()) !== "", "the link is made");
@@ -93,6 +96,32 @@ for (const [size, viewport] of [["wide", WIDE], ["narrow", NARROW]]) {
     wrong.push(...(await findings(page, "catalogue")));
     await page.getByRole("tab", { name: "Paste or open" }).click();
     wrong.push(...(await findings(page, "paste")));
+    assert.deepEqual(wrong, []);
+  });
+
+  scenario(`no serious findings of axe-core in what is played, ${size}`, { viewport, bypassCSP: true }, async (page) => {
+    await openRobot(page, "staubli-rx90", { panel: "table" });
+    await page.evaluate(axe);
+    const wrong = [];
+    await page.keyboard.press("Control+k");
+    await page.getByRole("radio", { name: "Pictures" }).check({ force: true });
+    await until(async () => (await page.locator(".arm-picture").count()) > 3, "there are pictures");
+    wrong.push(...(await findings(page, "pictures")));
+    await page.keyboard.press("Escape");
+
+    // A row that is played, the game, and a derivation step by step.
+    const steps = page.getByRole("region", { name: "From frame to frame" });
+    for (let k = 0; k < 2; k++) await steps.getByRole("button", { name: "A step forward" }).click();
+    wrong.push(...(await findings(page, "steps")));
+    await page.getByRole("button", { name: "Place the frames yourself" }).click();
+    for (let k = 0; k < 3; k++) await page.locator(".answer").nth(k).click();
+    await page.getByRole("region", { name: "Place the frames" }).getByRole("alert").waitFor();
+    wrong.push(...(await findings(page, "game")));
+    await tab(page, "Formulas").click();
+    await page.getByRole("tab", { name: "Forward model" }).click();
+    await page.getByRole("button", { name: "Step by step" }).click();
+    for (let k = 0; k < 4; k++) await page.getByRole("button", { name: "Next", exact: true }).click();
+    wrong.push(...(await findings(page, "derivation")));
     assert.deepEqual(wrong, []);
   });
 }

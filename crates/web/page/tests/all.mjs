@@ -1,16 +1,25 @@
 // All tests of the page, in one browser: `node --test tests/all.mjs`.
 import "./figures.mjs";
+import "./first.mjs";
 import "./robots.mjs";
 import "./tree.mjs";
 import "./meshes.mjs";
 import "./table.mjs";
+import "./steps.mjs";
+import "./graphics.mjs";
+import "./game.mjs";
+import "./beside.mjs";
 import "./joints.mjs";
 import "./hand.mjs";
 import "./formulas.mjs";
+import "./derivation.mjs";
 import "./path.mjs";
 import "./weight.mjs";
+import "./mobility.mjs";
 import "./check.mjs";
 import "./share.mjs";
+import "./embed.mjs";
+import "./offline.mjs";
 import "./input.mjs";
 import "./export.mjs";
 import "./access.mjs";

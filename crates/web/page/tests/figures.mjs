@@ -18,7 +18,7 @@ scenario("the first picture of the arm", { alone: true, init: firstFrame }, asyn
 });
 
 scenario("frames while the view is turned, with all ghosts", { alone: true }, async (page) => {
-  await openRobot(page, "staubli-rx90");
+  await openRobot(page, "staubli-rx90", { look: { ghosts: true } });
   await until(() => page.evaluate(() => window.denavit.ghosts >= 7), "all other solutions are drawn");
   const box = await page.locator("canvas.scene-canvas").boundingBox();
   // From a corner without handles: the pointer is held, then moved once a frame.
@@ -86,7 +86,7 @@ function watchTasks() {
 }
 
 scenario("the longest task of the page while formulas are derived", { alone: true, init: watchTasks }, async (page) => {
-  await openRobot(page, "staubli-rx90", { panel: "formulas" });
+  await openRobot(page, "staubli-rx90", { panel: "formulas", look: { ghosts: true } });
   await until(async () => (await page.locator("#topic-panel .document:not(.dimmed)").count()) === 1, "the first topic is derived");
   // The first picture with the other solutions takes long where WebGL is done in software: it is no derivation.
   await until(() => page.evaluate(() => window.denavit.ghosts >= 7), "all other solutions are drawn");

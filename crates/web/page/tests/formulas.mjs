@@ -146,3 +146,31 @@ scenario("a long derivation is cancelled, and derived again", async (page) => {
   const shown = await choose(page, "Singularities");
   assert.ok((await shown.locator("math").count()) > 0);
 });
+
+scenario("formulas that are a little too wide are set smaller, and scroll only where they are much too wide", async (page) => {
+  await openRobot(page, "staubli-rx90", { panel: "formulas" });
+  let shown = await choose(page, "Jacobian");
+  await page.evaluate(() => document.fonts.load('16px "Denavit Maths"').then(() => document.fonts.ready));
+  const sizes = () => shown.locator(".formula-box").evaluateAll((all) => all.map((box) => {
+    const math = box.querySelector("math");
+    const own = parseFloat(getComputedStyle(math).fontSize);
+    const kept = math.style.fontSize;
+    math.style.fontSize = "";
+    const usual = parseFloat(getComputedStyle(math).fontSize);
+    math.style.fontSize = kept;
+    return { share: own / usual, overflows: box.scrollWidth > box.clientWidth + 1 };
+  }));
+  const some = await sizes();
+  assert.ok(some.some(({ share }) => share < 0.999), "the Jacobian is smaller");
+  shown = await choose(page, "Forward model");
+  const all = [...some, ...(await sizes())];
+  for (const { share, overflows } of all) {
+    assert.ok(share > 0.78 && share <= 1.0001, `${share} of the usual size`);
+    if (overflows) assert.ok(share > 0.999, "what scrolls has its usual size");
+  }
+  // With more room all are as large as any.
+  await choose(page, "Jacobian");
+  await page.locator(".divider").focus();
+  await page.keyboard.press("Home");
+  await until(async () => (await sizes()).every(({ share, overflows }) => share > 0.999 && !overflows), "all have their usual size");
+});

@@ -54,7 +54,7 @@ scenario("the hand is dragged along an axis, and the arm follows it", async (pag
 });
 
 scenario("a row that was explained does not keep the handles and the other solutions away", async (page) => {
-  await openRobot(page, "staubli-rx90", { panel: "table" });
+  await openRobot(page, "staubli-rx90", { panel: "table", look: { ghosts: true } });
   await page.getByRole("textbox", { name: "Row 2, theta", exact: true }).focus();
   const has = () => page.evaluate(() => [Object.keys(window.denavit.handles()).length, window.denavit.ghosts]);
   await until(async () => (await has()).every((count) => count === 0), "the row has the scene for itself");

@@ -163,3 +163,31 @@ scenario("nothing plays by itself where less motion is wanted", { reducedMotion:
   await page.getByRole("button", { name: "Play", exact: true }).click();
   await until(async () => (await frames()) > before, "it plays when it is asked to");
 });
+
+scenario("way-points, their order and the duration are undone like all else", async (page) => {
+  const { robot } = await openRobot(page, "scara", { panel: "path" });
+  await turn(page, "q1", 40);
+  await page.getByRole("button", { name: "Add joints" }).click();
+  await turn(page, "q1", -20);
+  await page.getByRole("button", { name: "Add joints" }).click();
+  const points = page.getByRole("list", { name: "Way-points" }).getByRole("listitem");
+  const count = (n) => until(async () => (await shared(page, () => true, "")).points?.length === n || (n === 0 && (await shared(page, () => true, "")).points === undefined), `${n} way-points`);
+  await count(2);
+  const duration = page.getByRole("textbox", { name: /^Duration/ });
+  await enter(duration, "7");
+  await duration.blur();
+  await page.getByRole("button", { name: "Undo" }).click();
+  await until(async () => (await duration.inputValue()) === "", "no duration again");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await count(1);
+  await page.getByRole("button", { name: "Redo" }).click();
+  await count(2);
+  assert.ok((await points.count()) >= 2);
+  // Another robot lets them go; undoing brings both back.
+  await page.keyboard.press("Control+k");
+  await page.getByRole("combobox", { name: /Search/ }).fill("planar 2r");
+  await page.keyboard.press("Enter");
+  await shared(page, (s) => s.file.name !== robot.robot && !s.points, "another robot, without way-points");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await shared(page, (s) => s.file.name === robot.robot && s.points?.length === 2, "the robot and its way-points are back");
+});

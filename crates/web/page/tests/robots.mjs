@@ -65,3 +65,35 @@ scenario("ten robots of the catalogue are loaded, drawn and solved", async (page
     else assert.equal(await found.getByText("arm is here").count(), 1, `${name}: the arm is at one of its solutions`);
   }
 });
+
+scenario("the catalogue in pictures: all of its robots, found by typing and by arrows", async (page) => {
+  await open(page);
+  await page.keyboard.press("Control+k");
+  await page.getByRole("radio", { name: "Pictures" }).check({ force: true });
+  const options = page.getByRole("listbox", { name: "Robots" }).getByRole("option");
+  const count = await options.count();
+  assert.ok(count >= 99, `${count} robots`);
+  // What is out of sight is not drawn before it comes into view.
+  await until(async () => (await options.nth(0).locator("svg line").count()) > 4, "the first one is drawn");
+  assert.equal(await options.nth(count - 1).locator("svg").count(), 0, "the last one is not");
+  for (let k = 0; k < count; k += 8) {
+    await options.nth(k).scrollIntoViewIfNeeded();
+    await until(async () => (await options.nth(k).locator("svg line").count()) > 3, `robot ${k} is drawn`);
+  }
+  // A joint each, and the hand.
+  for (const [words, name] of [["scara generic", "scara"], ["emika panda", "franka-panda"]]) {
+    await page.getByRole("combobox", { name: /Search/ }).fill(words);
+    const picture = options.first().locator("svg");
+    await until(async () => (await picture.locator(".part-R, .part-P").count()) === robotOf(name).robot.joints.length, `${name} has its joints`);
+    assert.equal(await picture.locator(".part-hand").count(), 1);
+  }
+  await page.getByRole("combobox", { name: /Search/ }).fill("");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowDown");
+  const at = Number((await page.getByRole("combobox", { name: /Search/ }).getAttribute("aria-activedescendant")).replace("listed-", ""));
+  const [first, second] = [await options.nth(0).boundingBox(), await options.nth(at).boundingBox()];
+  assert.ok(at > 2 && second.y > first.y && second.x > first.x, "right, then down");
+  const title = (await options.nth(at).locator(".robot-title").textContent()).trim();
+  await page.keyboard.press("Enter");
+  await page.getByRole("heading", { level: 1, name: `Denavit: ${title}`, exact: true }).waitFor();
+});

@@ -11,18 +11,19 @@ const TYPES = {
   ".html": "text/html; charset=utf-8",
   ".js": "text/javascript; charset=utf-8",
   ".css": "text/css; charset=utf-8",
+  ".json": "application/json",
   ".wasm": "application/wasm",
   ".svg": "image/svg+xml",
   ".woff2": "font/woff2",
 };
 
-/** The address of the page, and what ends its server. */
-export async function serve() {
-  if (process.env.SITE) return { url: process.env.SITE, end() {} };
+/** The address of the page, and what ends its server. With `policy` null it serves as any static host does, and so others may frame it. */
+export async function serve(policy = POLICY) {
+  if (process.env.SITE && policy) return { url: process.env.SITE, end() {} };
   const server = createServer(async (request, response) => {
     const { pathname } = new URL(request.url, "http://page");
     const name = pathname === "/" ? "index.html" : pathname.slice(1);
-    const head = { "content-security-policy": POLICY, "x-content-type-options": "nosniff", "cache-control": "no-store" };
+    const head = { ...(policy && { "content-security-policy": policy }), "x-content-type-options": "nosniff", "cache-control": "no-store" };
     try {
       if (!/^[\w.-]+$/.test(name)) throw new Error("not a file of the page");
       const body = await readFile(new URL(name, dist));

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { apart, handAt, robotIn } from "./engine.mjs";
 import { differing, pictureOf } from "./pixels.mjs";
-import { close, open, openRobot, radians, read, saysInStatus, scenario, shared, tab, until, valueOf } from "./support.mjs";
+import { close, encode, open, openRobot, radians, read, saysInStatus, scenario, shared, tab, until, valueOf } from "./support.mjs";
 
 /** The hand of the RX-90 with q1 = 0, millimetres: t14 = C1 (C2 D3 − S23 RL4), t34 = S2 D3 + C23 RL4 (Khalil and Dombre, 2.5). */
 function handOfRx90([, q2, q3], d3, rl4) {
@@ -110,6 +110,74 @@ scenario("converting keeps the arm, reading the cells so changes it", async (pag
   await page.getByRole("button", { name: "Undo" }).click();
   await page.getByRole("button", { name: "Undo" }).click();
   assert.equal(await choice.inputValue(), "khalil");
+});
+
+scenario("a bare number means what the page shows, and says so", async (page) => {
+  const { robot } = await openRobot(page, "staubli-rx90", { panel: "table" });
+  const [d3, theta] = [cell(page, "Row 3, d"), cell(page, "Row 2, theta")];
+  await d3.fill("300");
+  await handIs(page, handOfRx90(robot.q, 300, 450), "while it is typed");
+  assert.equal(await d3.inputValue(), "300", "nobody writes into the cell while somebody types");
+  await d3.press("Enter");
+  assert.equal(await d3.inputValue(), "300 mm");
+  await theta.fill("q2 - 15");
+  await theta.blur();
+  assert.equal(await theta.inputValue(), "q2 - 15 deg");
+  await handIs(page, handOfRx90([0, robot.q[1] - radians(15), robot.q[2]], 300, 450), "degrees");
+  // The cells keep what they mean when the page shows other units.
+  await page.getByRole("button", { name: /Lengths in millimetres/ }).click();
+  await page.getByRole("button", { name: /Angles in degrees/ }).click();
+  assert.equal(await d3.inputValue(), "300 mm");
+  for (const [typed, wanted] of [["0,35", "0.35 m"], ["1/4", "(1/4) m"], ["-0.5 + RL4", "-0.5 m + RL4"], ["2*RL4", "2*RL4"], ["0", "0"]]) {
+    await d3.fill(typed);
+    await d3.press("Enter");
+    assert.equal(await d3.inputValue(), wanted);
+  }
+  await theta.fill("q2 + pi/4");
+  await theta.blur();
+  assert.equal(await theta.inputValue(), "q2 + pi/4");
+  // One step takes back a number with its unit.
+  for (let k = 0; k < 8; k++) await page.getByRole("button", { name: "Undo" }).click();
+  assert.equal(await theta.inputValue(), "q2");
+  assert.equal(await d3.inputValue(), "D3");
+  await page.getByRole("button", { name: "Redo" }).click();
+  assert.equal(await d3.inputValue(), "300 mm");
+});
+
+scenario("numbers of a file without units are shown with them", async (page) => {
+  const { file } = await openRobot(page, "staubli-rx90", { panel: "table" });
+  const bare = { ...file, joints: file.joints.map((row, k) => (k === 2 ? { ...row, d: "0.3", alpha: "-1.5" } : row)) };
+  await open(page, encode({ file: bare, panel: "table" }));
+  await until(async () => (await cell(page, "Row 3, d").inputValue()) === "0.3 m", "metres");
+  assert.equal(await cell(page, "Row 3, alpha").inputValue(), "-1.5 rad");
+});
+
+scenario("a new name in a cell becomes a parameter, and undoing takes both back", async (page) => {
+  await openRobot(page, "scara", { panel: "table" });
+  const a = cell(page, "Row 1, a");
+  await a.fill("L7 + phi");
+  await until(async () => (await a.getAttribute("aria-invalid")) === "true", "while it is typed nobody knows it");
+  await page.locator(".cell-findings").getByText(/L7 becomes a parameter when the cell is left/).waitFor();
+  await a.fill("L7");
+  await a.press("Enter");
+  await until(async () => (await a.getAttribute("aria-invalid")) === null, "it is known");
+  await saysInStatus(page, /L7 is a new parameter/);
+  await page.getByText(/No values are known for some parameters\. .*L7 = /).waitFor();
+  await cell(page, "Value of L7").fill("250");
+  await cell(page, "Value of L7").press("Enter");
+  assert.equal(await cell(page, "Value of L7").inputValue(), "250 mm");
+  const { file } = await shared(page, (s) => s.file.parameters.some(({ name, value }) => name === "L7" && value === "250 mm"), "it has its value");
+  assert.equal(file.joints[0].a, "L7");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await page.getByRole("button", { name: "Undo" }).click();
+  assert.equal(await a.inputValue(), "a1");
+  assert.equal(await page.getByRole("textbox", { name: "Value of L7" }).count(), 0);
+  // A unit is no name, and the variable of no joint neither.
+  for (const text of ["mm", "q9", "theta1"]) {
+    await a.fill(text);
+    await a.press("Enter");
+    await until(async () => (await a.getAttribute("aria-invalid")) === "true", `${text} is refused`);
+  }
 });
 
 /** Three parallel and perpendicular axes, with whole numbers for the hand. */

@@ -1,5 +1,6 @@
 // The engines of the page: one at once, for what takes no time; the others in workers, for what takes longer.
 
+import { addressOf, sourceOf, unpackFiles } from "../files.ts";
 import { EngineError, Instance, PARTS } from "./instance.ts";
 import type { Input, Op, Output } from "./types.ts";
 import type { FromWorker, ToWorker } from "./worker.ts";
@@ -78,7 +79,9 @@ export class Remote {
   }
 
   #start(): Worker {
-    const worker = new Worker(new URL("worker.js", document.baseURI), { type: "module" });
+    const address = addressOf("worker.js");
+    // A page that is a file may start a script that it holds itself, but no module.
+    const worker = new Worker(address, { type: address.startsWith("blob:") ? "classic" : "module" });
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
       const at = this.#waiting.findIndex((one) => one.id === data.id);
       if (at < 0) return;
@@ -91,7 +94,7 @@ export class Remote {
       event.preventDefault();
       for (const one of this.#waiting.splice(0)) one.reject(new EngineError({ error: event.message }));
     };
-    worker.postMessage({ first: this.#module, base: document.baseURI } satisfies ToWorker);
+    worker.postMessage({ first: this.#module, parts: PARTS.map(sourceOf) } satisfies ToWorker);
     return worker;
   }
 
@@ -113,6 +116,7 @@ export interface Engines {
 
 /** Fetches and compiles the engine, once for all. */
 export async function load(): Promise<Engines> {
-  const module = await WebAssembly.compileStreaming(fetch(new URL(PARTS[0], document.baseURI)));
+  await unpackFiles();
+  const module = await WebAssembly.compileStreaming(fetch(addressOf(PARTS[0])));
   return { now: new Instance([module]), solver: new Remote(module), formulas: new Remote(module), files: new Remote(module) };
 }

@@ -1,22 +1,22 @@
 // An instance of the engine beside the page: answers one request after the other.
 
-import { EngineError, Instance, PARTS, partOf } from "./instance.ts";
+import { EngineError, Instance, partOf } from "./instance.ts";
 import type { Input, Op } from "./types.ts";
 
-export type ToWorker = { first: WebAssembly.Module; base: string } | { prepare: Op } | { id: number; op: Op; input: Input<Op> };
+export type ToWorker = { first: WebAssembly.Module; parts: (string | Blob)[] } | { prepare: Op } | { id: number; op: Op; input: Input<Op> };
 export type FromWorker = { id: number; milliseconds: number } & ({ answer: unknown } | { error: string; hint?: string });
 type Asked = Extract<ToWorker, { id: number }>;
 
 let instance: Instance | undefined;
-/** Where later parts of the engine are fetched from when they are first needed. */
-let base = "";
+/** Where parts of the engine come from when they are first needed. */
+let parts: (string | Blob)[] = [];
 /** What is being answered, so that requests keep their order. */
 let before: Promise<void> = Promise.resolve();
 
 self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if ("first" in data) {
     instance = new Instance([data.first]);
-    base = data.base;
+    parts = data.parts;
     return;
   }
   // A part that cannot be fetched is asked for again by the request that needs it, which says so.
@@ -27,7 +27,8 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
 async function prepared(op: Op): Promise<void> {
   if (!instance) return;
   for (let next = instance.modules.length; next <= partOf(op); next += 1) {
-    instance.modules.push(await WebAssembly.compileStreaming(fetch(new URL(PARTS[next], base))));
+    const source = parts[next];
+    instance.modules.push(await (typeof source === "string" ? WebAssembly.compileStreaming(fetch(source)) : WebAssembly.compile(await source.arrayBuffer())));
   }
 }
 

@@ -1,5 +1,6 @@
 // The report: everything about the robot as a document.
 
+import { addressOf } from "../files.ts";
 import { signal } from "@preact/signals";
 import type { Input, Output } from "../engine/types.ts";
 import { engine, q } from "../state.ts";
@@ -33,7 +34,7 @@ async function write(): Promise<void> {
 
 /** The engine leaves a place for the font of the formulas: the page has it already. */
 async function withFont(text: string): Promise<string> {
-  const bytes = new Uint8Array(await (await fetch(new URL("maths.woff2", document.baseURI))).arrayBuffer());
+  const bytes = new Uint8Array(await (await fetch(addressOf("maths.woff2"))).arrayBuffer());
   return text.replace("base64,FONT", `base64,${btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))}`);
 }
 

@@ -39,6 +39,11 @@ export class CurrentValues {
     return computed(() => (name in this.#values.value ? short(this.#values.value[name]) : ""));
   }
 
+  /** The number itself, if it has come. */
+  now(name: string): number | undefined {
+    return this.#values.peek()[name];
+  }
+
   #soon(): void {
     this.#again = true;
     if (this.#out || this.#frame) return;

@@ -5,8 +5,10 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/ho
 import type { Formulas, Topic } from "../engine/types.ts";
 import { Blocks } from "../formula/blocks.tsx";
 import { CopyMenu } from "../formula/copy.tsx";
-import { bind } from "../formula/marks.ts";
+import { keepFitted } from "../formula/fit.ts";
+import { bind, type Symbols } from "../formula/marks.ts";
 import { CurrentValues } from "../formula/values.ts";
+import { Walk } from "../formula/walk.tsx";
 import { engine, q, revision, robot, stale, topic } from "../state.ts";
 import { Failure, ProgressLine, Task } from "../task.tsx";
 import { short } from "../units.ts";
@@ -166,6 +168,7 @@ function NumericJacobian() {
 /** A topic with its symbols bound to the joints. What is out of date stays until the next is there, at its height. */
 function Document({ now, dimmed }: { now: { formulas: Formulas; revision: number }; dimmed: boolean }) {
   const root = useRef<HTMLDivElement>(null);
+  const symbols = useRef<Symbols>(null);
   const [words, say] = useState("");
   const { formulas } = now;
 
@@ -175,12 +178,18 @@ function Document({ now, dimmed }: { now: { formulas: Formulas; revision: number
   }, [values]);
 
   useLayoutEffect(() => {
-    const symbols = bind(root.current!, formulas.joints, say);
-    return () => symbols.dispose();
+    const bound = bind(root.current!, formulas.joints, say);
+    symbols.current = bound;
+    const loose = keepFitted(root.current!);
+    return () => {
+      loose();
+      bound.dispose();
+    };
   }, [formulas]);
 
   return (
     <>
+      <Walk key={`walk ${formulas.topic} ${now.revision}`} root={root} symbols={symbols} values={values} />
       <div ref={root} key={`${formulas.topic} ${now.revision}`} class={dimmed ? "document dimmed" : "document"}>
         <Blocks blocks={formulas.blocks} values={values} />
       </div>

@@ -3,6 +3,7 @@
 import { useState } from "preact/hooks";
 import type { Joint } from "../engine/types.ts";
 import { change, file, highlighted, look, move, note, q, robot, scene, stale } from "../state.ts";
+import { MobilityPart } from "../mobility/part.tsx";
 import { isExact, nearness, smallest } from "../scene/arm.ts";
 import { forFile, formatWithUnit, type Measure, short, unitOf, format } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
@@ -197,6 +198,7 @@ function Measures() {
           <dd>{condition > 0 && condition <= 1e6 ? short(condition, 1) : "∞"}</dd>
         </div>
       </dl>
+      <MobilityPart />
     </section>
   );
 }

@@ -6,7 +6,7 @@ import { fileName, save } from "../export/save.ts";
 import { pathCsv } from "../path/csv.ts";
 import { Player } from "../path/player.tsx";
 import { Plots } from "../path/plots.tsx";
-import { add, duration, hand, place, plan, plannedFrom, planning, points, speed, start, via, wish } from "../path/points.ts";
+import { add, duration, hand, place, plan, plannedFrom, planning, points, setDuration, setSpeed, speed, start, via, wish } from "../path/points.ts";
 import { jointWords, pointWords, WaypointList } from "../path/waypoint.tsx";
 import { EventSign, seek } from "../plot/plot.tsx";
 import { engine, note, path, q, revision, robot } from "../state.ts";
@@ -37,7 +37,7 @@ export function PathPanel() {
         {noLimits && (
           <label>
             <span>Speed of the hand (m/s)</span>
-            <NumberField label="Speed of the hand, metres a second" value={speed.value} measure="number" onChange={(value) => value > 0 && (speed.value = value)} />
+            <NumberField label="Speed of the hand, metres a second" value={speed.value} measure="number" onChange={(value) => value > 0 && setSpeed(value)} />
           </label>
         )}
       </div>
@@ -103,7 +103,7 @@ function DurationField() {
           const value = Number(text);
           const isGood = text === "" || (Number.isFinite(value) && value > 0);
           event.currentTarget.setAttribute("aria-invalid", String(!isGood));
-          if (isGood) duration.value = text === "" ? null : value;
+          if (isGood) setDuration(text === "" ? null : value);
         }}
       />
       <span class="unit" aria-hidden="true">

@@ -8,7 +8,10 @@ import { CONVENTIONS } from "../table/convention.tsx";
 import { TreePart } from "../tree/dialog.tsx";
 import { type Lying, ofInput } from "../tree/files.ts";
 import { alone, asked, isTree, openTree, read as readTree } from "../tree/open.ts";
-import { Button } from "../widgets/button.tsx";
+import { stand } from "../beside/beside.ts";
+import { ArmPicture } from "../gallery/picture.tsx";
+import { pictures, unwant, want } from "../gallery/pictures.ts";
+import { Button, Segments } from "../widgets/button.tsx";
 import { Findings } from "../widgets/callout.tsx";
 import { download } from "../widgets/copy.tsx";
 import { Dialog } from "../widgets/dialog.tsx";
@@ -196,6 +199,8 @@ export function RobotsDialog() {
 }
 
 let listed: Listed[] | null = null;
+/** How the catalogue is shown, as it was left. */
+const shownAs = signal<"list" | "pictures">("list");
 
 function Catalogue() {
   const [words, setWords] = useState("");
@@ -214,6 +219,11 @@ function Catalogue() {
     document.getElementById(`listed-${to}`)?.scrollIntoView({ block: "nearest" });
   };
   const at = Math.min(active, found.length - 1);
+  /** How many stand side by side. */
+  const across = () => {
+    const tops = [...document.querySelectorAll<HTMLElement>("#listed > .robot")].map((one) => one.offsetTop);
+    return Math.max(1, tops.filter((top) => top === tops[0]).length);
+  };
   return (
     <div class="catalogue">
       <div class="search">
@@ -239,8 +249,9 @@ function Catalogue() {
           onKeyDown={(event) => {
             const last = found.length - 1;
             const to = byKey(event, {
-              ArrowDown: Math.min(at + 1, last),
-              ArrowUp: Math.max(at - 1, 0),
+              ArrowDown: Math.min(at + across(), last),
+              ArrowUp: Math.max(at - across(), 0),
+              ...(shownAs.value === "pictures" && words === "" ? { ArrowRight: Math.min(at + 1, last), ArrowLeft: Math.max(at - 1, 0) } : {}),
               PageDown: Math.min(at + 8, last),
               PageUp: Math.max(at - 8, 0),
             });
@@ -256,8 +267,17 @@ function Catalogue() {
         <span class="fine number" role="status">
           {found.length} of {listed.length}
         </span>
+        <Segments
+          label="Shown as"
+          options={[
+            { value: "list" as const, label: "List" },
+            { value: "pictures" as const, label: "Pictures" },
+          ]}
+          value={shownAs.value}
+          onChange={(next) => (shownAs.value = next)}
+        />
       </div>
-      <div class="listed" id="listed" role="listbox" aria-label="Robots">
+      <div class={shownAs.value === "list" ? "listed" : "listed pictured"} id="listed" role="listbox" aria-label="Robots">
         {found.map((robot, index) => (
           <div
             key={robot.name}
@@ -269,14 +289,51 @@ function Catalogue() {
             onClick={() => take(robot.name)}
             onPointerMove={() => setActive(index)}
           >
+            {shownAs.value === "pictures" && <Pictured name={robot.name} />}
             <span class="robot-title">{robot.title}</span>
             <span class="robot-joints">{robot.joints}</span>
             <span class="robot-convention">{robot.convention}</span>
           </div>
         ))}
       </div>
+      {found[at] && (
+        <div class="row-of-buttons end">
+          <Button label="Stand it beside the arm" small hint={`${found[at].title} in the same picture, to be compared`} onClick={() => besideIt(found[at].name)} />
+          <Button label={`Open ${found[at].title}`} kind="main" small onClick={() => take(found[at].name)} />
+        </div>
+      )}
       {found.length === 0 && <p class="quiet">No robot of the catalogue is called so. Its table can be pasted, or typed from an empty one.</p>}
     </div>
+  );
+}
+
+function besideIt(name: string): void {
+  try {
+    stand(name);
+    dialog.value = null;
+  } catch (why) {
+    said(why);
+  }
+}
+
+/** The picture of a robot, once it has come into view and its turn. */
+function Pictured({ name }: { name: string }) {
+  const place = useRef<HTMLSpanElement>(null);
+  useEffect(() => {
+    const element = place.current;
+    if (!element) return;
+    const watcher = new IntersectionObserver(([entry]) => (entry.isIntersecting ? want(name) : unwant(name)), { rootMargin: "200px" });
+    watcher.observe(element);
+    return () => {
+      watcher.disconnect();
+      unwant(name);
+    };
+  }, [name]);
+  const scene = pictures.value.get(name);
+  return (
+    <span class="picture-place" ref={place}>
+      {scene && <ArmPicture scene={scene} />}
+    </span>
   );
 }
 

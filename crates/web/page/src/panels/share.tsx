@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from "preact/hooks";
 import { address, LONG_ADDRESS, present } from "../share.ts";
+import { canBeKept, keep, kept, letGo } from "../kept.ts";
 import { Button } from "../widgets/button.tsx";
 import { Callout } from "../widgets/callout.tsx";
 import { CopyButton } from "../widgets/copy.tsx";
@@ -21,7 +22,8 @@ export function SharePanel() {
       clearTimeout(timer);
     };
   }, [text]);
-  const isHere = ["127.0.0.1", "localhost", "[::1]"].includes(location.hostname);
+  const isFile = location.protocol === "file:";
+  const isHere = isFile || ["127.0.0.1", "localhost", "[::1]"].includes(location.hostname);
   return (
     <>
       <div class="heading">
@@ -37,7 +39,7 @@ export function SharePanel() {
       <p class="fine number">{link ? `${link.length.toLocaleString("en")} characters` : " "}</p>
       {isHere && (
         <Callout tone="note">
-          <span>This address works on this computer while “denavit view” runs. For somebody else, send the robot file.</span>
+          <span>This address works on this computer{isFile ? ", where the file of the page is" : " while “denavit view” runs"}. For somebody else, send the robot file.</span>
         </Callout>
       )}
       {link.length > LONG_ADDRESS && (
@@ -49,6 +51,27 @@ export function SharePanel() {
         <Button label="Save the robot file" icon="save" onClick={saveFile} />
       </div>
       <ExportPanel />
+      {canBeKept() && <WithoutNetwork />}
     </>
+  );
+}
+
+function WithoutNetwork() {
+  const now = kept.value;
+  const [isOpen, setOpen] = useState(now !== "no");
+  return (
+    <details class="section" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>
+        Without a network <span class="fine">{now === "yes" ? "kept on this device" : ""}</span>
+      </summary>
+      <p class="fine" role="status">
+        {now === "yes" && "The page and all parts of its engine are on this device: it opens without a network, and can be installed as an application."}
+        {now === "fetching" && "Fetching all parts of the page …"}
+        {now === "no" && "The page can stay on this device with all parts of its engine, about 3 MB, and open without a network."}
+      </p>
+      <div class="row-of-buttons">
+        {now === "yes" ? <Button label="Keep it no longer" onClick={() => void letGo()} /> : <Button label="Keep it on this device" disabled={now === "fetching"} onClick={() => void keep()} />}
+      </div>
+    </details>
   );
 }

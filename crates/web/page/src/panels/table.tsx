@@ -1,5 +1,7 @@
 // The table: its convention, rows, limits and parameters, base and tool, named poses.
 
+import { game } from "../game/game.ts";
+import { GameButton, GamePanel } from "../game/panel.tsx";
 import { file, findings, robot } from "../state.ts";
 import { CellFindings } from "../table/cell.tsx";
 import { ConventionChoice } from "../table/convention.tsx";
@@ -12,6 +14,10 @@ import { Cell } from "../table/cell.tsx";
 import { Findings } from "../widgets/callout.tsx";
 
 export function TablePanel() {
+  return game.value ? <GamePanel now={game.value} /> : <Tables />;
+}
+
+function Tables() {
   // What belongs to no cell on this page is said below the rows, so that they stay in place while one types.
   const loose = findings.value.filter((finding) => !finding.cell || !SHOWN.test(finding.cell));
   return (
@@ -23,6 +29,7 @@ export function TablePanel() {
       </div>
       <ConventionChoice />
       <DhTable />
+      <GameButton />
       {loose.length > 0 && <Findings findings={loose} />}
       <ParametersTable />
       <LimitsTable />

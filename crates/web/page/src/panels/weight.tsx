@@ -55,7 +55,8 @@ export function Weight() {
             {model.joints.map((joint, k) => (
               <div key={joint.name}>
                 <dt>{nameOf(joint)}</dt>
-                <dd>
+                <dd class="torque">
+                  <TorqueBar torque={held.torques[k] ?? 0} most={Math.max(...held.torques.map(Math.abs))} />
                   {short(held.torques[k] ?? NaN, 2)} {joint.kind === "R" ? "N m" : "N"}
                 </dd>
               </div>
@@ -71,5 +72,15 @@ export function Weight() {
       <ProgressLine task={falling} words="Falling" cancel={() => engine().solver.cancel()} />
       {progress.kind === "failed" && <Failure words={progress.words} hint={progress.hint} />}
     </section>
+  );
+}
+
+/** From the middle to the left or to the right, the largest to the end: not spoken, the number stands beside it. */
+function TorqueBar({ torque, most }: { torque: number; most: number }) {
+  const share = most > 1e-6 ? (50 * Math.abs(torque)) / most : 0;
+  return (
+    <span class="torque-bar" aria-hidden="true">
+      <span style={{ left: `${(torque < 0 ? 50 - share : 50).toFixed(2)}%`, width: `${share.toFixed(2)}%` }} />
+    </span>
   );
 }

@@ -2,17 +2,17 @@
 
 import { effect, signal } from "@preact/signals";
 import type { Matrix, Path, Point, Waypoint } from "../engine/types.ts";
-import { engine, note, path, playing, pose, q, revision, robot, target, time } from "../state.ts";
+import { engine, note, path, playing, pose, q, record, revision, robot, target, time, undoes } from "../state.ts";
 import { Task } from "../task.tsx";
 
 /** Where the path starts; the present joints when it is planned, if nothing was said. */
-export const start = signal<number[] | null>(null);
-export const points = signal<Waypoint[]>([]);
+export const start = undoes(signal<number[] | null>(null));
+export const points = undoes(signal<Waypoint[]>([]));
 /** The point of an arc that is half described. */
 export const via = signal<Point | null>(null);
-export const duration = signal<number | null>(null);
+export const duration = undoes(signal<number | null>(null));
 /** Of the hand, m/s, where the robot has no limits of its joints. */
-export const speed = signal(0.25);
+export const speed = undoes(signal(0.25));
 
 export const planning = new Task<Path>();
 /** What the path that is shown was planned from; another text means that it is out of date. */
@@ -41,7 +41,7 @@ export function add(point: Waypoint): boolean {
     note("The arm is still where the path ends: move it, then add the point.");
     return false;
   }
-  points.value = [...points.value, point];
+  change([...points.value, point]);
   return true;
 }
 
@@ -53,11 +53,11 @@ function isSame(before: Waypoint, point: Waypoint): boolean {
 }
 
 export function put(index: number, point: Waypoint): void {
-  points.value = points.value.map((old, k) => (k === index ? point : old));
+  change(points.value.map((old, k) => (k === index ? point : old)), `point ${index}`);
 }
 
 export function remove(index: number): void {
-  points.value = points.value.filter((_, k) => k !== index);
+  change(points.value.filter((_, k) => k !== index));
 }
 
 /** Exchanges a point with the one before or behind it. */
@@ -66,7 +66,30 @@ export function shift(index: number, by: -1 | 1): void {
   const other = index + by;
   if (!next[index] || !next[other]) return;
   [next[index], next[other]] = [next[other], next[index]];
+  change(next);
+}
+
+/** Other points, which can be undone. */
+function change(next: Waypoint[], of?: string): void {
+  record(of);
   points.value = next;
+}
+
+export function setDuration(seconds: number | null): void {
+  if (seconds === duration.peek()) return;
+  record();
+  duration.value = seconds;
+}
+
+export function setSpeed(next: number): void {
+  record("speed of the hand");
+  speed.value = next;
+}
+
+/** The path begins at the present joints. */
+export function startHere(): void {
+  record();
+  start.value = q.peek();
 }
 
 export async function plan(from: number[] = start.peek() ?? q.peek()): Promise<void> {

@@ -6,7 +6,7 @@ import { engine, look, move, q, reach, robot } from "../state.ts";
 import { format, formatWithUnit, type Measure, unitOf } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
 import { NumberField } from "../widgets/number.tsx";
-import { hand, place, points, put, remove, shift, start } from "./points.ts";
+import { hand, place, points, put, remove, shift, start, startHere } from "./points.ts";
 
 /** The angles that a pose of a way-point is edited with. */
 const SET = "zyx";
@@ -22,7 +22,7 @@ export function WaypointList() {
             {first ? jointWords(first) : "the joints when the path is planned"}
           </span>
           <span class="waypoint-actions">
-            <Button label="Start here" hint="Start with the present joints" small onClick={() => (start.value = q.peek())} />
+            <Button label="Start here" hint="Start with the present joints" small onClick={startHere} />
             {first && <Button label="Go" hint="Move the arm to the start" small onClick={() => move(first)} />}
           </span>
         </div>

@@ -36,5 +36,6 @@ export function setCamera(numbers: number[]): void {
   waiting = numbers;
   if (!stage) return;
   stage.orbit.go({ azimuth, elevation, distance, target: [x, y, z] }, 0);
+  stage.orbit.isChosen = true;
   stage.viewChanged();
 }

@@ -25,6 +25,7 @@ function placed(face: Face): string {
 export function look(stage: Stage, face: Face): void {
   const [azimuth, elevation] = FACES[face];
   stage.orbit.go({ azimuth, elevation }, stage.ease);
+  stage.orbit.isChosen = true;
   stage.viewChanged();
 }
 

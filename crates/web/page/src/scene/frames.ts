@@ -1,6 +1,7 @@
 // The frames of the table as axes with their names, the tool's frame, and the frame where the hand is wanted.
 
 import type { Matrix, Scene } from "../engine/types.ts";
+import { game } from "../game/game.ts";
 import { look, playing, pose, scene, selected, target } from "../state.ts";
 import { add, apart, axisOf, originOf, scale } from "./geometry.ts";
 import { inBodies } from "./looks.ts";
@@ -47,6 +48,8 @@ function named(now: Scene): { frame: Matrix; name: string; index: number }[] {
 
 function draw(stage: Stage, strokes: Strokes, now: Scene, palette: Palette, row: number | null, hasLabels: boolean): void {
   const labels: Label[] = [];
+  /** Axes that end at the same point have one label: `z_0,1`. */
+  const ends = new Map<string, Label>();
   for (const { frame, name, index } of named(now)) {
     // Of a row that is explained only its two frames matter, and they are named by the row.
     const isOfRow = row !== null && (index === row || index === row + 1);
@@ -56,7 +59,15 @@ function draw(stage: Stage, strokes: Strokes, now: Scene, palette: Palette, row:
     const origin = originOf(frame);
     for (const k of [0, 2] as const) {
       const axis = axisOf(frame, k);
-      labels.push({ text: `${NAMES[k]}_${name}`, at: add(origin, axis, length), toward: scale(axis, now.unit), colour: palette[NAMES[k]], size: 14, rank: k });
+      const place = [...origin, ...axis].map((x) => Math.round(x * 1e5)).join() + NAMES[k];
+      const there = ends.get(place);
+      if (there) {
+        there.text += `,${name}`;
+        continue;
+      }
+      const label: Label = { text: `${NAMES[k]}_${name}`, at: add(origin, axis, length), toward: scale(axis, now.unit), colour: palette[NAMES[k]], size: 14, rank: k };
+      ends.set(place, label);
+      labels.push(label);
     }
   }
   stage.labels.set("frames", labels);
@@ -68,7 +79,7 @@ export function addFrames(stage: Stage): void {
   stage.onEnd(() => strokes.dispose());
   stage.watch(
     "frames",
-    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames, row: selected.value, hasLabels: look.value.labels && !playing.value, isInside: inBodies.value }),
+    () => ({ now: scene.value, palette: colours.value, isShown: look.value.frames && game.value === null, row: selected.value, hasLabels: look.value.labels && !playing.value, isInside: inBodies.value }),
     ({ now, palette, isShown, row, hasLabels }) => {
       strokes.begin();
       if (now && isShown) draw(stage, strokes, now, palette, row, hasLabels);

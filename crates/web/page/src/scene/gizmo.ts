@@ -3,9 +3,11 @@
 
 import { signal } from "@preact/signals";
 import type { Matrix, Point } from "../engine/types.ts";
-import { playing, pose, reach, selected, target } from "../state.ts";
+import { game } from "../game/game.ts";
+import { playing, pose, reach, scene, selected, target } from "../state.ts";
 import { add, axisOf, cross, dot, movedPose, nearestOnLine, norm, onPlane, originOf, perpendicular, type Ray, scale, sub } from "./geometry.ts";
 import { measures } from "./measure.ts";
+import { planeOf, turnOf } from "./planar.ts";
 import type { Stage } from "./stage.ts";
 import { Strokes } from "./strokes.ts";
 import { colours, type Palette } from "./theme.ts";
@@ -56,7 +58,7 @@ export class Gizmo {
     const redraw = () => this.#draw();
     stage.watch(
       "gizmo",
-      () => [pose.value, target.value, handles.value, playing.value, selected.value, colours.value, this.#hovered.value, this.#dragged.value, this.#words.value],
+      () => [pose.value, target.value, handles.value, playing.value, selected.value, game.value, colours.value, this.#hovered.value, this.#dragged.value, this.#words.value],
       redraw,
     );
     stage.onView.add(redraw);
@@ -66,7 +68,7 @@ export class Gizmo {
   /** Where the handles are and along what; nothing while there are none. */
   #place(): Place | null {
     const frame = target.value ?? pose.value;
-    if (!frame || handles.value.mode === "off" || playing.value || selected.value !== null) return null;
+    if (!frame || handles.value.mode === "off" || playing.value || selected.value !== null || game.value !== null) return null;
     const at = originOf(frame);
     const isTool = handles.value.axes === "tool";
     const axes: Place["axes"] = isTool ? [axisOf(frame, 0), axisOf(frame, 1), axisOf(frame, 2)] : [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
@@ -76,9 +78,20 @@ export class Gizmo {
     return { at, axes, pixel: size * orbit.pixelAt(at) };
   }
 
-  #parts(): Part[] {
-    if (handles.value.mode === "turn") return AXES.map((k) => ({ kind: "ring", k }));
-    return [...AXES.map((k): Part => ({ kind: "axis", k })), ...AXES.map((k): Part => ({ kind: "plane", k }))];
+  /** Those that an arm can follow: one in a plane moves in it and turns about its normal. */
+  #parts({ axes }: Place): Part[] {
+    const now = scene.peek();
+    const isAlong = (normal: Point, k: number) => Math.abs(dot(normal, axes[k])) > 0.999;
+    const isAcross = (normal: Point, k: number) => Math.abs(dot(normal, axes[k])) < 0.05;
+    if (handles.value.mode === "turn") {
+      const about = now && turnOf(now);
+      const rings = about ? AXES.filter((k) => isAlong(about, k)) : [];
+      return (rings.length > 0 ? rings : AXES).map((k) => ({ kind: "ring", k }));
+    }
+    const normal = now && planeOf(now);
+    const isFlat = normal !== null && AXES.some((k) => isAlong(normal, k));
+    const [ways, planes] = isFlat ? [AXES.filter((k) => isAcross(normal, k)), AXES.filter((k) => isAlong(normal, k))] : [AXES, AXES];
+    return [...ways.map((k): Part => ({ kind: "axis", k })), ...planes.map((k): Part => ({ kind: "plane", k }))];
   }
 
   /** A part as chains of points. */
@@ -99,7 +112,7 @@ export class Gizmo {
   #draw(): void {
     const place = this.#place();
     this.#strokes.begin();
-    if (place) for (const part of this.#parts()) this.#drawPart(part, place, colours.value);
+    if (place) for (const part of this.#parts(place)) this.#drawPart(part, place, colours.value);
     this.#strokes.end();
     const isShown = place && this.#dragged.value && this.#words.value;
     this.#stage.labels.set("gizmo", isShown ? [{ text: this.#words.value, at: place.at, toward: scale(this.#stage.orbit.up, -1), colour: colours.value.text, size: 13, plate: true, rank: 50 }] : []);
@@ -135,7 +148,7 @@ export class Gizmo {
     const { orbit } = this.#stage;
     let best: Part | null = null;
     let least = slack;
-    for (const part of this.#parts()) {
+    for (const part of this.#parts(place)) {
       const faces = Math.abs(dot(place.axes[part.k], orbit.back));
       if ((part.kind === "axis" && faces > 0.985) || (part.kind === "plane" && faces < 0.12)) continue;
       const points = this.#shape(part, place);
@@ -155,7 +168,7 @@ export class Gizmo {
     const place = this.#place();
     const spots: Record<string, [number, number]> = {};
     if (!place) return spots;
-    for (const part of this.#parts()) {
+    for (const part of this.#parts(place)) {
       const points = this.#shape(part, place);
       const { back } = this.#stage.orbit;
       // The back of a ring cannot be taken.

@@ -36,7 +36,7 @@ export interface Label {
   rank: number;
 }
 
-interface Slot {
+export interface Slot {
   x: number;
   y: number;
   width: number;
@@ -136,10 +136,10 @@ export class Labels {
     this.#pen.clearRect(0, 0, SIDE, SIDE);
   }
 
-  /** Finds places for all labels as the arm is seen now. */
-  layout(orbit: Orbit): void {
+  /** Finds places for all labels as the arm is seen now, beside what covers the picture. */
+  layout(orbit: Orbit, covered: Slot[]): void {
     const all = [...this.#groups.values()].flat().sort((a, b) => b.rank - a.rank);
-    const placed: { x: number; y: number; width: number; height: number }[] = [];
+    const placed = [...covered];
     const seen = new Map<string, number>();
     let count = 0;
     for (const label of all) {
@@ -162,6 +162,7 @@ export class Labels {
       count++;
     }
     measures.labels = count;
+    measures.places = placed;
     this.#geometry.instanceCount = count;
     this.object.visible = count > 0;
     this.#box.needsUpdate = true;

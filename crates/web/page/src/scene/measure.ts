@@ -17,6 +17,8 @@ export interface Measures {
   /** How many ghosts, labels stand in the picture. */
   ghosts: number;
   labels: number;
+  /** Where they stand, and what covers the picture, pixels of the canvas. */
+  places: { x: number; y: number; width: number; height: number }[];
   /** How many pieces of bodies are there to be drawn; how often all of a tree's were. */
   bodies: number;
   trees: number;
@@ -26,6 +28,8 @@ export interface Measures {
   handles: () => Record<string, [number, number]>;
   /** Where the middles of the joints are, pixels of the canvas, in the order of the engine's symbols. */
   joints: () => [number, number][];
+  /** Where the answers of the game are, pixels of the canvas. */
+  answers: () => [number, number][];
 }
 
 declare global {
@@ -44,11 +48,13 @@ export const measures: Measures = {
   software: false,
   ghosts: 0,
   labels: 0,
+  places: [],
   bodies: 0,
   trees: 0,
   box: () => [],
   handles: () => ({}),
   joints: () => [],
+  answers: () => [],
 };
 
 window.denavit = measures;

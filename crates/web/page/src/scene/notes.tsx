@@ -6,6 +6,9 @@ import { look, move, robot, scene, selected, singular } from "../state.ts";
 import { isExact, nearness } from "./arm.ts";
 import { rowNow } from "./row.ts";
 import { singularAt } from "./ghosts.ts";
+import { BesideChips } from "../beside/chips.tsx";
+import { StepKeys } from "../steps/player.tsx";
+import { stepNow } from "../steps/walk.ts";
 import { waiting } from "./waiting.ts";
 
 /** The four parameters of the selected row in the order in which they are applied, zero or not. */
@@ -21,8 +24,8 @@ function RowList() {
         </button>
       </div>
       <ol>
-        {said.map(({ letter, sign, index, cell, number, isZero, words, axis, shape }) => (
-          <li key={letter} class={isZero ? "scene-row-zero" : undefined} title={words}>
+        {said.map(({ letter, sign, index, cell, number, isZero, words, axis, shape }, k) => (
+          <li key={letter} class={[isZero && "scene-row-zero", k === stepNow.value && "scene-row-now"].filter(Boolean).join(" ") || undefined} title={words}>
             <span class={`scene-mark scene-mark-${letter === "r" ? "d" : letter} scene-mark-${shape}`} aria-hidden="true" />
             <span>
               <i>{sign}</i>
@@ -36,6 +39,7 @@ function RowList() {
           </li>
         ))}
       </ol>
+      <StepKeys />
     </div>
   );
 }
@@ -98,6 +102,7 @@ export function Notes() {
       <RowList />
       <Singulars />
       <div class="scene-chips" role="status">
+        <BesideChips />
         <Waits />
         {isNear.value && <div class="scene-chip scene-chip-near">{isExact(scene.value) ? "Singular" : "Nearly singular"}</div>}
       </div>

@@ -38,6 +38,8 @@ export class Orbit {
   readonly camera = new Camera();
   view: View = { azimuth: FACES.corner[0], elevation: FACES.corner[1], distance: 4, target: [0, 0, 0.4] };
   perspective = true;
+  /** Whether somebody has chosen this view: what fits itself leaves it alone then. */
+  isChosen = false;
   width = 1;
   height = 1;
   #right: Point = [1, 0, 0];
@@ -121,6 +123,7 @@ export class Orbit {
   }
 
   turn(dx: number, dy: number): void {
+    this.isChosen = true;
     this.#goal = null;
     const { azimuth, elevation } = this.view;
     const limited = Math.min(RIGHT_ANGLE, Math.max(-RIGHT_ANGLE, elevation + dy));
@@ -129,6 +132,7 @@ export class Orbit {
 
   /** By pixels. */
   pan(dx: number, dy: number): void {
+    this.isChosen = true;
     this.#goal = null;
     const k = (2 * this.#half) / this.height;
     this.view = { ...this.view, target: add(add(this.view.target, this.#right, -dx * k), this.#up, dy * k) };
@@ -136,6 +140,7 @@ export class Orbit {
 
   /** Nearer or farther; the point of the target's plane under (x, y) stays where it is. */
   zoom(factor: number, x = this.width / 2, y = this.height / 2): void {
+    this.isChosen = true;
     this.#goal = null;
     const distance = Math.min(500, Math.max(0.02, this.view.distance * factor));
     const k = ((2 * this.#half) / this.height) * (1 - distance / this.view.distance);
@@ -143,9 +148,28 @@ export class Orbit {
     this.view = { ...this.view, distance, target: add(this.view.target, shift) };
   }
 
-  /** The distance from which a ball is seen whole. */
-  distanceFor(radius: number): number {
-    return radius / Math.sin(HALF_ANGLE);
+  /** Goes to where points fill the picture within its edges (pixels), seen from the same side. */
+  frame(points: Point[], edges: { top: number; right: number; bottom: number; left: number }, lasts: number): void {
+    const to = this.#goal?.to ?? this.view;
+    const { right, up, back } = directions(to.azimuth, to.elevation);
+    const seen = points.map((p) => ({ x: dot(p, right), y: dot(p, up), z: dot(p, back) }));
+    const depths = seen.map(({ z }) => z);
+    const middle = (Math.min(...depths) + Math.max(...depths)) / 2;
+    // What is seen at the distance 1: half the height, half the width.
+    const half = Math.tan(HALF_ANGLE) * Math.max(1, this.height / this.width);
+    const wide = (half * this.width) / this.height;
+    // A point is seen if −low (D − z) ≤ x − x₀ ≤ high (D − z): the distance D and the place x₀ where that is so for all.
+    const range = (key: "x" | "y", low: number, high: number) => {
+      const most = Math.max(...seen.map((p) => p[key] + (this.perspective ? high * (p.z - middle) : 0)));
+      const least = Math.min(...seen.map((p) => p[key] - (this.perspective ? low * (p.z - middle) : 0)));
+      return { distance: (most - least) / (low + high), at: (distance: number) => (most - high * distance + least + low * distance) / 2 };
+    };
+    const across = range("x", wide * (1 - (2 * edges.left) / this.width), wide * (1 - (2 * edges.right) / this.width));
+    const upward = range("y", half * (1 - (2 * edges.bottom) / this.height), half * (1 - (2 * edges.top) / this.height));
+    const distance = Math.max(1e-3, across.distance, upward.distance);
+    const target = add(add(scale(right, across.at(distance)), up, upward.at(distance)), back, middle);
+    this.isChosen = false;
+    this.go({ azimuth: to.azimuth, elevation: to.elevation, distance, target }, lasts);
   }
 
   /** Goes to a view, in a moment or at once. */

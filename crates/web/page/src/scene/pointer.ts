@@ -148,6 +148,7 @@ export function addPointer(stage: Stage, gizmo: Gizmo): void {
     fingers.delete(event.pointerId);
     letGo();
     if (!at || slipped || event.type === "pointercancel") return;
+    if (stage.onPick(at.x, at.y)) return clear();
     const { ghost: one } = under(at, 0);
     if (one) move(one.q);
     clear();

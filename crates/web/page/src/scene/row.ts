@@ -5,15 +5,15 @@
 import { computed } from "@preact/signals";
 import type { Letter, Point, Scene, Step } from "../engine/types.ts";
 import { look, scene, selected } from "../state.ts";
+import { SIGNS } from "../steps/matrix.ts";
+import { after, doneNow, frameNow, isNothing, isTurn, share } from "../steps/walk.ts";
+import { drawFrame } from "./frames.ts";
 import { add, axisOf, cross, dot, middle, norm, originOf, scale, turned, unit } from "./geometry.ts";
 import type { Label } from "./labels.ts";
 import type { Stage } from "./stage.ts";
 import { Strokes } from "./strokes.ts";
 import { type Colour, colours, type Palette } from "./theme.ts";
 import { inAngle, inLength } from "./units.ts";
-
-const GREEK: Record<Letter, string> = { theta: "θ", d: "d", a: "a", alpha: "α", r: "r", gamma: "γ", b: "b" };
-const TURNS: readonly Letter[] = ["theta", "alpha", "gamma"];
 
 export interface Said {
   letter: Letter;
@@ -25,6 +25,8 @@ export interface Said {
   /** `121.3°` */
   number: string;
   isZero: boolean;
+  /** The parameter that it is in the standard convention: that has the colour. */
+  hue: "theta" | "d" | "a" | "alpha";
   colour: Colour;
   shape: "turn" | "way";
   /** Whose axis: `z` and 3. */
@@ -32,10 +34,9 @@ export interface Said {
   words: string;
 }
 
-function colourOf(step: Step, palette: Palette): Colour {
-  const isTurn = TURNS.includes(step.letter);
-  if (step.axis === "z") return isTurn ? palette.theta : palette.d;
-  return isTurn ? palette.alpha : palette.a;
+function hueOf(step: Step): Said["hue"] {
+  if (step.axis === "z") return isTurn(step) ? "theta" : "d";
+  return isTurn(step) ? "alpha" : "a";
 }
 
 /** A cell that is only a number says nothing that the number does not. */
@@ -44,19 +45,20 @@ function isNumber(text: string): boolean {
 }
 
 function say(step: Step, row: number, isBefore: boolean, palette: Palette): Said {
-  const isTurn = TURNS.includes(step.letter);
+  const turns = isTurn(step);
   const axis = { name: step.axis, index: isBefore ? row : row + 1 };
   return {
     letter: step.letter,
-    sign: GREEK[step.letter],
+    sign: SIGNS[step.letter],
     index: row + 1,
     cell: isNumber(step.text) ? "" : step.text,
-    number: isTurn ? inAngle(step.value) : inLength(step.value),
-    isZero: Math.abs(step.value) < 1e-9,
-    colour: colourOf(step, palette),
-    shape: isTurn ? "turn" : "way",
+    number: turns ? inAngle(step.value) : inLength(step.value),
+    isZero: isNothing(step),
+    hue: hueOf(step),
+    colour: palette[hueOf(step)],
+    shape: turns ? "turn" : "way",
     axis,
-    words: `${isTurn ? "A turn about" : "A way along"} the ${axis.name} axis of frame ${axis.index}`,
+    words: `${turns ? "A turn about" : "A way along"} the ${axis.name} axis of frame ${axis.index}`,
   };
 }
 
@@ -84,7 +86,7 @@ class RowPicture {
     stage.onEnd(() => this.#strokes.dispose());
   }
 
-  draw(now: Scene | null, row: number | null, said: Said[], palette: Palette, hasLabels: boolean): void {
+  draw(now: Scene | null, row: number | null, said: Said[], palette: Palette, hasLabels: boolean, done: number | null): void {
     this.#strokes.begin();
     this.#labels = [];
     const steps = now && row !== null ? now.rows[row] : undefined;
@@ -94,8 +96,12 @@ class RowPicture {
       let arcs = 0;
       steps.forEach((step, k) => {
         if (said[k].isZero) return;
-        if (TURNS.includes(step.letter)) this.#turn(step, said[k], now.unit * (2.5 + 0.75 * arcs++), palette);
-        else this.#way(step, said[k]);
+        // Of the steps that are made one after another, those that are done, and a part of the one that is being made.
+        const part = done === null ? 1 : share(k, done);
+        const radius = now.unit * (2.5 + (isTurn(step) ? 0.75 * arcs++ : 0));
+        if (part === 0) return;
+        if (isTurn(step)) this.#turn({ ...step, value: part * step.value }, said[k], radius, palette, part);
+        else this.#way({ ...step, value: part * step.value }, said[k], part);
       });
     }
     this.#stage.labels.set("row", hasLabels ? this.#labels : this.#labels.filter((label) => label.plate));
@@ -112,7 +118,7 @@ class RowPicture {
       this.#name(`x_${index}`, add(at, x, 2.4 * now.unit), scale(x, now.unit), palette.x);
     }
     // The common normal lies where the step along x is.
-    const along = steps.find((step) => step.axis === "x" && !TURNS.includes(step.letter));
+    const along = steps.find((step) => step.axis === "x" && !isTurn(step));
     if (!along) return;
     const [at, x] = [originOf(along.frame), axisOf(along.frame, 0)];
     const [low, high] = [Math.min(0, along.value) - 0.5 * long, Math.max(0, along.value) + 0.5 * long];
@@ -123,19 +129,20 @@ class RowPicture {
     this.#labels.push({ text, at, toward, colour, size: 14, rank: 20 });
   }
 
-  #text({ sign, index, cell, number }: Said): string {
-    return `${sign}_${index} = ${cell ? `${cell} = ` : ""}${number}`;
+  /** On the way a step has its letter alone. */
+  #text({ sign, index, cell, number }: Said, part: number): string {
+    return part < 1 ? `${sign}_${index}` : `${sign}_${index} = ${cell ? `${cell} = ` : ""}${number}`;
   }
 
-  #way(step: Step, said: Said): void {
+  #way(step: Step, said: Said, part: number): void {
     const from = originOf(step.frame);
     const axis = axisOf(step.frame, step.axis === "x" ? 0 : 2);
     const to = add(from, axis, step.value);
     this.#strokes.line(from, to, { colour: said.colour, width: 3.5, head: 13, both: true, through: 0.9 });
-    this.#labels.push({ text: this.#text(said), at: middle(from, to), toward: this.#beside(axis), colour: said.colour, size: 14, plate: true, rank: 30 });
+    this.#labels.push({ text: this.#text(said, part), at: middle(from, to), toward: this.#beside(axis), colour: said.colour, size: 14, plate: true, rank: 30 });
   }
 
-  #turn(step: Step, said: Said, radius: number, palette: Palette): void {
+  #turn(step: Step, said: Said, radius: number, palette: Palette, part: number): void {
     const at = originOf(step.frame);
     const isAboutZ = step.axis === "z";
     const axis = axisOf(step.frame, isAboutZ ? 2 : 0);
@@ -148,7 +155,7 @@ class RowPicture {
     const shown = Math.abs(step.value) > 2 * Math.PI ? step.value % (2 * Math.PI) : step.value;
     this.#strokes.arc(at, axis, scale(start, radius), shown, { colour: said.colour, width: 3, head: 13, through: 0.9 });
     const half = turned(start, axis, shown / 2);
-    this.#labels.push({ text: this.#text(said), at: add(at, half, radius), toward: scale(half, radius), colour: said.colour, size: 14, plate: true, rank: 30 });
+    this.#labels.push({ text: this.#text(said, part), at: add(at, half, radius), toward: scale(half, radius), colour: said.colour, size: 14, plate: true, rank: 30 });
   }
 
   /** A direction at a right angle to a line as it is seen, upward. */
@@ -163,8 +170,25 @@ export function addRow(stage: Stage): void {
   const picture = new RowPicture(stage);
   stage.watch(
     "row",
-    () => ({ now: scene.value, row: selected.value, said: rowNow.value, palette: colours.value, hasLabels: look.value.labels }),
-    ({ now, row, said, palette, hasLabels }) => picture.draw(now, row, said, palette, hasLabels),
+    () => ({ now: scene.value, row: selected.value, said: rowNow.value, palette: colours.value, hasLabels: look.value.labels, done: doneNow.value }),
+    ({ now, row, said, palette, hasLabels, done }) => picture.draw(now, row, said, palette, hasLabels, done),
+  );
+
+  // The frame that goes from one to the other, and where it was after each step.
+  const moving = new Strokes(21);
+  stage.add(moving.object);
+  stage.onEnd(() => moving.dispose());
+  stage.watch(
+    "moving frame",
+    () => ({ now: scene.value, row: selected.value, done: doneNow.value, frame: frameNow.value, palette: colours.value }),
+    ({ now, row, done, frame, palette }) => {
+      moving.begin();
+      if (now && row !== null && done !== null && frame) {
+        const before = now.rows[row].filter((step, k) => k + 1 < done && !isNothing(step));
+        for (const step of before) drawFrame(moving, after(step), palette, { length: 2.4 * now.unit, alpha: 0.3, width: 2 });
+        drawFrame(moving, frame, palette, { length: 3.6 * now.unit, alpha: 1, width: 4 });
+      }
+      moving.end();
+    },
   );
 }
-

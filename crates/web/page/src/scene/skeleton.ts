@@ -3,27 +3,26 @@
 
 import type { Scene } from "../engine/types.ts";
 import { robot, scene, selected } from "../state.ts";
+import { isTurn } from "../steps/walk.ts";
 import { add, axisOf, originOf, scale } from "./geometry.ts";
 import { inBodies } from "./looks.ts";
 import type { Stage } from "./stage.ts";
 import { Strokes } from "./strokes.ts";
 import { colours, type Palette } from "./theme.ts";
 
-const TURNS = ["theta", "alpha", "gamma"];
-
 /** The symbols of joints where the table has them, and not where a drawing would have room for them. */
 export function symbolsOnTable(now: Scene): Scene["symbols"] {
   const joints = robot.peek()?.joints;
   return now.symbols.map((symbol) => {
     const row = symbol.joint === null ? undefined : joints?.[symbol.joint]?.row;
-    const moving = row === undefined ? undefined : now.rows[row]?.find((step) => (symbol.kind === "R" ? step.letter === "theta" : step.axis === "z" && !TURNS.includes(step.letter)));
+    const moving = row === undefined ? undefined : now.rows[row]?.find((step) => (symbol.kind === "R" ? step.letter === "theta" : step.axis === "z" && !isTurn(step)));
     return moving ? { ...symbol, centre: originOf(moving.frame) } : symbol;
   });
 }
 
 function draw(strokes: Strokes, now: Scene, palette: Palette): void {
   for (const step of now.rows.flat()) {
-    if (TURNS.includes(step.letter)) continue;
+    if (isTurn(step)) continue;
     const from = originOf(step.frame);
     const isAlongX = step.axis === "x";
     const to = add(from, axisOf(step.frame, isAlongX ? 0 : 2), step.value);

@@ -1,8 +1,8 @@
 // The picture itself: the renderer, what is drawn when, and how finely. Nothing is drawn unless something changed.
 
 import { ColorManagement, LinearSRGBColorSpace, Scene, WebGLRenderer, type Object3D } from "three";
-import { hasPicture, effect } from "../state.ts";
-import { Labels } from "./labels.ts";
+import { hasPicture, effect, signal } from "../state.ts";
+import { Labels, type Slot } from "./labels.ts";
 import { measures } from "./measure.ts";
 import { Orbit } from "./orbit.ts";
 import { pixels } from "./strokes.ts";
@@ -34,6 +34,8 @@ export class Stage {
   readonly labels: Labels;
   /** Called when the eye has moved: what keeps its size in pixels. */
   readonly onView = new Set<() => void>();
+  /** A place in the picture that was pressed; whether that was meant for somebody. */
+  onPick: (x: number, y: number) => boolean = () => false;
   /** Whether more is about to be drawn: the fine picture waits for it. */
   awaits = (): boolean => false;
   #renderer: WebGLRenderer;
@@ -47,7 +49,8 @@ export class Stage {
   #moving: number;
   #size = { width: 0, height: 0 };
   #ends: (() => void)[] = [];
-  #lost = false;
+  /** The browser has taken the picture away, as it does when another program wants the graphics card. */
+  readonly isLost = signal(false);
 
   constructor(canvas: HTMLCanvasElement, software: boolean) {
     this.canvas = canvas;
@@ -72,11 +75,17 @@ export class Stage {
     );
     const lost = (event: Event) => {
       event.preventDefault();
-      this.#lost = true;
+      this.isLost.value = true;
+      // What was to be drawn is drawn when it is back.
+      cancelAnimationFrame(this.#pending);
+      clearTimeout(this.#rest);
+      this.#pending = 0;
     };
     const found = () => {
-      this.#lost = false;
-      this.invalidate();
+      this.isLost.value = false;
+      // A new context begins with its own colour behind all.
+      this.#clear(colours.peek().background);
+      this.viewChanged();
     };
     canvas.addEventListener("webglcontextlost", lost);
     canvas.addEventListener("webglcontextrestored", found);
@@ -144,7 +153,7 @@ export class Stage {
   }
 
   invalidate(): void {
-    if (this.#pending || this.#lost) return;
+    if (this.#pending || this.isLost.peek()) return;
     this.#pending = requestAnimationFrame((now) => {
       this.#pending = 0;
       this.#frame(now);
@@ -152,7 +161,7 @@ export class Stage {
   }
 
   #frame(now: number): void {
-    if (this.#lost || this.#size.width === 0) return;
+    if (this.isLost.peek() || this.#size.width === 0) return;
     const begun = performance.now();
     const isOnTheWay = this.orbit.step(now);
     this.#adapt(now);
@@ -173,12 +182,22 @@ export class Stage {
     const dirty = [...this.#dirty.values()];
     this.#dirty.clear();
     for (const draw of dirty) draw();
-    this.labels.layout(this.orbit);
+    this.labels.layout(this.orbit, this.#covered());
     this.#renderer.render(this.#scene, this.orbit.camera);
     measures.frames += 1;
     if (measures.frames === 1) setTimeout(hasPicture);
     measures.calls = this.#renderer.info.render.calls;
     measures.triangles = this.#renderer.info.render.triangles;
+  }
+
+  /** Where notes, the cube and the tool bar stand over the picture. */
+  #covered(): Slot[] {
+    const own = this.canvas.getBoundingClientRect();
+    const over = this.canvas.parentElement?.querySelectorAll(".scene-cube, .scene-row, .scene-chip, .scene-tools") ?? [];
+    return [...over].map((one) => {
+      const { left, top, width, height } = one.getBoundingClientRect();
+      return { x: left - own.left, y: top - own.top, width, height };
+    });
   }
 
   /** Fewer pixels while frames are slow. */
@@ -196,7 +215,7 @@ export class Stage {
   /** The picture stands still: once more, finely. */
   #settle(): void {
     measures.intervalMs = 0;
-    if (this.#lost || this.#pending || this.#finest === this.#moving) return;
+    if (this.isLost.peek() || this.#pending || this.#finest === this.#moving) return;
     this.#apply(this.#finest);
     this.#draw();
   }

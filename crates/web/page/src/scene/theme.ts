@@ -66,6 +66,7 @@ const light = palette({
   text: "#17212b",
   quiet: "#4a5866",
   path: "#6741b5",
+  velocity: "#0f7285",
   now: "#1d2530",
 });
 
@@ -99,6 +100,7 @@ const dark: typeof light = palette({
   text: "#e6ebf0",
   quiet: "#a9b5c1",
   path: "#b79bff",
+  velocity: "#5cc5d8",
   now: "#eef2f7",
 });
 

@@ -14,6 +14,7 @@ const DRAWINGS = {
   ghosts: "M3 15v-5l4-4 3 2M8 15v-4.5l4-4.5 3.5 1.5M2 15h8",
   workspace: "M2.5 13.5a6.5 6.5 0 0 1 13 0zM6.5 13.5a2.5 2.5 0 0 1 5 0",
   singular: "M9 3l6.5 11.5h-13zM9 7.5v3.5M9 12.7v.1",
+  ellipsoid: "M2.7 12.6C1.4 10.4 3.7 6.9 7.9 4.7S16 3.5 15.3 5.8 11.3 11.7 7.1 13.9 3.4 13.8 2.7 12.6zM3 12.8 15 5.3",
   path: "M3 14c1-8 5.5-1 7-5s1-5 5-5M3 14h.01M15 4h.01",
   grid: "M3 6.5h12M3 11.5h12M6.5 3v12M11.5 3v12",
   perspective: "M6.5 4h5l3.5 10H3zM4.8 9h8.4M9 4v10",
@@ -40,7 +41,7 @@ function Tool({ drawing, label, pressed, onClick }: ToolProps) {
   );
 }
 
-function Switch({ of, label }: { of: "frames" | "labels" | "ghosts" | "singular" | "path" | "grid" | "perspective"; label: string }) {
+function Switch({ of, label }: { of: "frames" | "labels" | "ghosts" | "singular" | "ellipsoid" | "path" | "grid" | "perspective"; label: string }) {
   const pressed = look.value[of];
   return <Tool drawing={of} label={label} pressed={pressed} onClick={() => show({ [of]: !pressed })} />;
 }
@@ -82,6 +83,7 @@ export function Toolbar({ stage }: { stage: Stage }) {
         <Switch of="ghosts" label="Other solutions" />
         <Tool drawing="workspace" label={WORKSPACE[space]} pressed={space !== "none"} onClick={() => show({ workspace: NEXT[space] })} />
         <Switch of="singular" label="Singular configurations" />
+        <Switch of="ellipsoid" label="Velocity ellipsoid" />
         {path.value && <Switch of="path" label="Path" />}
         <Switch of="grid" label="Floor" />
       </div>

@@ -1,8 +1,13 @@
 // The scene on the page: the canvas with everything in it, and what stands around the canvas.
 
 import { useComputed, useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import { answerNow, effect, look, q, robot, scene } from "../state.ts";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Button } from "../widgets/button.tsx";
+import { addBeside } from "../beside/picture.ts";
+import { addMeaning } from "../formula/meaning-picture.ts";
+import { addGame } from "../game/picture.ts";
+import { addEllipsoid } from "../mobility/picture.ts";
+import { answerNow, effect, look, q, robot, scene, selected } from "../state.ts";
 import { addArm } from "./arm.ts";
 import { isAskedFor, present } from "./camera.ts";
 import { Cube } from "./cube.tsx";
@@ -13,13 +18,12 @@ import { Gizmo } from "./gizmo.ts";
 import { addLooks, wholeTrees } from "./looks.ts";
 import { Notes } from "./notes.tsx";
 import { addPath } from "./path.ts";
-import { runPlayer } from "./player.ts";
 import { addPointer } from "./pointer.ts";
 import { addRow } from "./row.ts";
 import { graphics, Stage } from "./stage.ts";
 import { addSkeleton } from "./skeleton.ts";
 import { Toolbar } from "./toolbar.tsx";
-import { FACES } from "./orbit.ts";
+import { firstLook } from "./first-look.ts";
 import { fit } from "./view-fit.ts";
 import { describe } from "./words.ts";
 import { addWorkspace } from "./workspace.ts";
@@ -29,13 +33,19 @@ const REST = 400;
 
 function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   const stage = new Stage(canvas, isSoftware);
+  // What is to be seen at first has to fit into this.
+  [stage.orbit.width, stage.orbit.height] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight)];
   addFloor(stage);
   addArm(stage);
   addFrames(stage);
   addLooks(stage);
   addSkeleton(stage);
   addRow(stage);
+  addGame(stage);
   addGhosts(stage);
+  addBeside(stage);
+  addMeaning(stage);
+  addEllipsoid(stage);
   addWorkspace(stage);
   addPath(stage);
   addPointer(stage, new Gizmo(stage));
@@ -51,14 +61,26 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
       const model = robot.value;
       if (!model || !scene.value || name === model.robot) return;
       name = model.robot;
-      if (!first) stage.orbit.go({ azimuth: FACES.corner[0], elevation: FACES.corner[1] }, 0);
-      if (!(first && isAskedFor())) fit(stage, false);
+      if (!(first && isAskedFor())) {
+        stage.orbit.go(firstLook(scene.value), 0);
+        fit(stage, false);
+      }
       first = false;
     }),
   );
   stage.onEnd(
     effect(() => {
       if (wholeTrees.value > 0) fit(stage, false);
+    }),
+  );
+  // The card of a row takes a part of the picture: a view that nobody has chosen makes room for it.
+  let hadCard = selected.peek() !== null;
+  stage.onEnd(
+    effect(() => {
+      const hasCard = selected.value !== null;
+      if (hasCard === hadCard) return;
+      hadCard = hasCard;
+      if (!stage.orbit.isChosen) fit(stage, true);
     }),
   );
   return stage;
@@ -85,7 +107,13 @@ function onKey(stage: Stage, event: KeyboardEvent): void {
   stage.viewChanged();
 }
 
+/** A picture that does not come back by itself is made anew. */
 export function SceneView() {
+  const [time, again] = useState(0);
+  return <Picture key={time} again={() => again(time + 1)} />;
+}
+
+function Picture({ again }: { again: () => void }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const stage = useSignal<Stage | null>(null);
   const words = useSignal("Scene");
@@ -119,8 +147,6 @@ export function SceneView() {
     };
   }, []);
 
-  useEffect(runPlayer, []);
-
   useEffect(() => {
     let timer = 0;
     const end = effect(() => {
@@ -151,6 +177,12 @@ export function SceneView() {
       />
       {stage.value && <Cube stage={stage.value} />}
       <Notes />
+      {stage.value?.isLost.value && (
+        <p class="over-scene" role="alert">
+          The browser has taken the picture away; it mostly comes back by itself.
+          <Button label="Draw it again" small onClick={again} />
+        </p>
+      )}
       {stage.value && <Toolbar stage={stage.value} />}
     </div>
   );

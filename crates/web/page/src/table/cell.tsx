@@ -1,7 +1,9 @@
 // A cell of the table: a text field that knows what is wrong with it, and the words for that in a row beneath.
 
+import type { Finding } from "../engine/types.ts";
 import { sentence, Words } from "../widgets/words.tsx";
-import { findingId, findingsOf, flush, leave, textOf, type } from "./cells.ts";
+import { undeclared } from "./bare.ts";
+import { findingId, findingsOf, leave, settle, textOf, type } from "./cells.ts";
 
 interface CellProps {
   /** `joints.2.theta` */
@@ -42,7 +44,7 @@ export function Cell({ cell, label, row, column, placeholder, words, class: extr
       }}
       onBlur={leave}
       onKeyDown={(event) => {
-        if (event.key === "Enter") flush();
+        if (event.key === "Enter") settle();
       }}
     />
   );
@@ -62,14 +64,22 @@ export function CellFindings({ cells }: { cells: { cell: string; name: string }[
         >
           {cells.length > 1 && <strong>{name}: </strong>}
           <Words text={sentence(finding.message)} />
-          {finding.hint && (
+          {hintOf(finding) && (
             <span class="hint">
               {" "}
-              <Words text={sentence(finding.hint)} />
+              <Words text={sentence(hintOf(finding) ?? "")} />
             </span>
           )}
         </li>
       ))}
     </ul>
   );
+}
+
+/** A name that nobody declared becomes a parameter on this page; the engine says how to write that into a file. */
+function hintOf(finding: Finding): string | null {
+  const name = undeclared(finding);
+  if (name === null) return finding.hint;
+  const [, like] = /^did you mean (`[^`]+`)/.exec(finding.hint ?? "") ?? [];
+  return `${like ? `did you mean ${like}? If not, ` : ""}\`${name}\` becomes a parameter when the cell is left`;
 }

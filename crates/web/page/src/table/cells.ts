@@ -1,9 +1,11 @@
 // A cell of the robot file by its path, as findings name it: `joints.2.theta`, `tool.xyz.0`. What is typed goes into
-// the file a moment later, so that a word is one change and not one for each letter.
+// the file a moment later, so that a word is one change and not one for each letter. When the cell is left, names that
+// are new in it become parameters.
 
 import { signal } from "@preact/signals";
 import type { Finding, RobotFile } from "../engine/types.ts";
-import { change, file, findings, said } from "../state.ts";
+import { change, file, findings, look, note, said } from "../state.ts";
+import { SI, undeclared, withUnits } from "./bare.ts";
 
 /** From a key to the picture, milliseconds. */
 const DEBOUNCE = 60;
@@ -13,9 +15,12 @@ let timer: ReturnType<typeof setTimeout> | undefined;
 /** Counts stays in cells: what is typed in one stay is undone together. */
 let stay = 0;
 
-/** The text of a cell, as typed or as the file has it. */
+/** The text of a cell: as typed while one is in it, else as the file has it. */
 export function textOf(cell: string): string {
-  if (typing.value?.cell === cell) return typing.value.text;
+  return typing.value?.cell === cell ? typing.value.text : withUnits(cell, inFile(cell), SI);
+}
+
+function inFile(cell: string): string {
   const found = at(file.value, cell.split("."));
   return typeof found === "string" ? found : "";
 }
@@ -24,27 +29,52 @@ export function type(cell: string, text: string): void {
   if (typing.value && typing.value.cell !== cell) flush();
   typing.value = { cell, text };
   clearTimeout(timer);
-  timer = setTimeout(flush, DEBOUNCE);
+  timer = setTimeout(write, DEBOUNCE);
 }
 
-/** Puts what was typed into the file, now. */
-export function flush(): void {
+/** Puts what was typed into the file; the cell keeps it as it was typed. */
+function write(): void {
   clearTimeout(timer);
   const typed = typing.value;
   if (!typed) return;
-  typing.value = null;
   try {
-    const now = at(file.value, typed.cell.split("."));
-    if ((typeof now === "string" ? now : "") !== typed.text) change(withCell(file.value, typed.cell, typed.text), `${typed.cell} ${stay}`);
+    const text = withUnits(typed.cell, typed.text, look.value);
+    if (inFile(typed.cell) !== text) change(withCell(file.value, typed.cell, text), `${typed.cell} ${stay}`);
   } catch (why) {
     said(why);
   }
 }
 
+/** Puts what was typed into the file, now, and shows what it has become. */
+export function flush(): void {
+  write();
+  typing.value = null;
+}
+
+/** What was typed is meant: names that are new in the cell become parameters. */
+export function settle(): void {
+  const typed = typing.value;
+  flush();
+  if (typed) declare(typed.cell);
+}
+
 /** A cell was left: the next change is another one. */
 export function leave(): void {
-  flush();
+  settle();
   stay += 1;
+}
+
+/** Gives the names that a cell uses and nobody declared a place among the parameters; it is undone with the cell. */
+function declare(cell: string): void {
+  const names = [...new Set(findingsOf(cell).map(undeclared))].filter((name) => name !== null);
+  if (names.length === 0) return;
+  try {
+    const added = names.map((name) => ({ name, value: "" }));
+    change({ ...file.value, parameters: [...file.value.parameters, ...added] }, `${cell} ${stay}`);
+    note(`${names.join(", ")} ${names.length === 1 ? "is a new parameter: its value has" : "are new parameters: their values have"} a place under “Parameters”.`);
+  } catch (why) {
+    said(why);
+  }
 }
 
 export function findingsOf(cell: string): Finding[] {

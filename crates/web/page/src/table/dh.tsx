@@ -2,14 +2,15 @@
 
 import { useState } from "preact/hooks";
 import type { Convention, JointKind, Letter } from "../engine/types.ts";
-import { change, file, highlighted, note, robot, selected } from "../state.ts";
+import { change, file, highlighted, look, note, robot, selected } from "../state.ts";
 import { Button } from "../widgets/button.tsx";
 import { onGridKey } from "../widgets/grid.ts";
 import { Cell, CellFindings } from "./cell.tsx";
 import { findingsOf, flush, textOf } from "./cells.ts";
+import { SIGNS } from "../steps/matrix.ts";
+import { Steps } from "../steps/player.tsx";
 import { insert, lettersOf, remove, type RowKind, shift } from "./rows.ts";
 
-const SIGNS: Record<Letter, string> = { theta: "θ", d: "d", a: "a", alpha: "α", r: "r", gamma: "γ", b: "b" };
 /** `joint angle about z` and its colour, the one that the scene draws it in. */
 const MEANING: Record<Convention, Partial<Record<Letter, { words: string; colour: string }>>> = {
   standard: {
@@ -73,9 +74,11 @@ export function DhTable() {
         </table>
       </div>
       <RowTools />
+      <Steps />
       <p class="fine">
-        A number without a unit is in radians or metres; <code>90 deg</code>, <code>-pi/2</code>, <code>450 mm</code> and formulas of the parameters
-        such as <code>q2 + 90 deg</code> are understood.
+        A number without a unit is in {look.value.angles === "deg" ? "degrees" : "radians"} or {look.value.lengths === "mm" ? "millimetres" : "metres"}, as the
+        page shows them; <code>-pi/2</code> and formulas such as <code>q2 + 90</code> are understood, and a new name such as <code>L2</code> becomes a
+        parameter.
       </p>
       {convention === "khalil" && !used && (
         <label class="check">

@@ -1,5 +1,7 @@
 // Parts of the page that are fetched when they are first needed: what unpacks archives and reads meshes.
 
+import { addressOf } from "../files.ts";
+
 interface Parts {
   unzip: typeof import("../lazy/unzip.ts");
   stl: typeof import("../lazy/stl.ts");
@@ -10,7 +12,7 @@ interface Parts {
 
 /** A part; `build.mjs` bundles each by itself. */
 export function lazy<K extends keyof Parts>(name: K): Promise<Parts[K]> {
-  return import(new URL(`lazy-${name}.js`, document.baseURI).href) as Promise<Parts[K]>;
+  return import(addressOf(`lazy-${name}.js`)) as Promise<Parts[K]>;
 }
 
 /** Whether a path leads nowhere but down. */
