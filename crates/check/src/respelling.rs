@@ -41,6 +41,11 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     text
 }
 
+/// A text with points in its numbers, where they have commas, byte for byte.
+pub(super) fn with_points(text: &str) -> Cow<'_, str> {
+    decimal_points(text).map_or(Cow::Borrowed(text), Cow::Owned)
+}
+
 /// The lines with an `=` in them that are no longer than people write, each with its place.
 fn lines_with_equations(text: &str) -> impl Iterator<Item = (usize, &str)> {
     const LONGEST: usize = 2_000;
