@@ -7,10 +7,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A robot of each kind; the first three in French, too.
+/// A robot of each kind; the first three in every language.
 const ROBOTS: &[&str] =
     &["staubli-rx90", "cylindrical-wrist", "puma560", "ur3", "smart5-six-rail", "kuka-iiwa-14"];
-const FRENCH: usize = 3;
+const SEVERAL: usize = 3;
+const OTHERS: [&str; 3] = ["fr", "de", "es"];
 /// Lines that are wider than the page by less, points, nobody sees.
 const OVERFULL: f64 = 3.0;
 
@@ -45,8 +46,8 @@ fn latex(folder: &Path) -> Result<()> {
         apt(&[&["install", "-y", "-qq", "--no-install-recommends"][..], &packages].concat())?;
     }
     fs::create_dir_all(folder)?;
-    let french = ROBOTS[..FRENCH].iter().map(|r| (r, "fr"));
-    for (robot, language) in ROBOTS.iter().map(|r| (r, "en")).chain(french) {
+    let others = ROBOTS[..SEVERAL].iter().flat_map(|r| OTHERS.map(|language| (r, language)));
+    for (robot, language) in ROBOTS.iter().map(|r| (r, "en")).chain(others) {
         let stem = format!("{robot}-{language}");
         report(robot, &folder.join(format!("{stem}.tex")), &["--language", language])?;
         let mut tex = Command::new("pdflatex");
@@ -58,7 +59,7 @@ fn latex(folder: &Path) -> Result<()> {
             bail!("{stem}.tex runs off the page:\n{}", wide.join("\n"));
         }
     }
-    println!("{} documents by pdfTeX, none wider than its page", ROBOTS.len() + FRENCH);
+    println!("{} documents by pdfTeX, none wider than its page", ROBOTS.len() + SEVERAL * OTHERS.len());
     Ok(())
 }
 
@@ -78,11 +79,11 @@ fn typst(folder: &Path) -> Result<()> {
     if !missing.is_empty() {
         bail!("no documents of {}", missing.join(", "));
     }
-    for robot in ROBOTS {
+    for (robot, language) in ROBOTS.iter().flat_map(|r| OTHERS.map(|language| (r, language))) {
         report(
             robot,
-            &folder.join(format!("{robot}-fr.typ")),
-            &["--language", "fr", "--conventions", "standard,craig,khalil"],
+            &folder.join(format!("{robot}-{language}.typ")),
+            &["--language", language, "--conventions", "standard,craig,khalil"],
         )?;
     }
     succeed(command(python).arg("xtask/pages/look.py").arg(folder))
@@ -100,7 +101,7 @@ fn pages(folder: &Path) -> Result<()> {
     look.arg("xtask/pages/look.mjs").arg(chromium);
     for (k, robot) in ROBOTS.iter().enumerate() {
         let page = folder.join(format!("{robot}.html"));
-        report(robot, &page, &["--language", if k < FRENCH { "fr" } else { "en" }])?;
+        report(robot, &page, &["--language", OTHERS.get(k).unwrap_or(&"en")])?;
         look.arg(page);
     }
     succeed(&mut look)

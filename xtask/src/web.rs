@@ -52,8 +52,10 @@ const PARTS: [split::Part; 6] = [
             "denavit_report::render",
             "denavit_report::sections",
             "denavit_report::words::english",
-            // What both languages say alike is one function, which has the name of either.
+            // What languages say alike is one function, which has the name of any of them.
             "denavit_report::words::french",
+            "denavit_report::words::german",
+            "denavit_report::words::spanish",
             "denavit_symbolic::factor",
             "denavit_web::answer_more",
             "denavit_web::formulas",

@@ -474,8 +474,20 @@ pub(super) fn told_of_jacobian(name: &Name) -> Option<Told> {
 
 /// The numbers of frames that words speak of: `the origin of frame 5`, `O_4`.
 pub(super) fn frames_told(words: &str) -> Vec<usize> {
-    const FRAMES: [&str; 9] =
-        ["frame", "origin", "repère", "system", "koordinatensystem", "sistema", "marco", "terna", "o"];
+    const FRAMES: [&str; 12] = [
+        "frame",
+        "origin",
+        "repère",
+        "system",
+        "systems",
+        "koordinatensystem",
+        "koordinatensystems",
+        "koordinatensysteme",
+        "sistema",
+        "marco",
+        "terna",
+        "o",
+    ];
     let plain = words.replace(['_', '{', '}', '$', '\\'], "");
     let words: Vec<&str> = plain.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).collect();
     let number = |w: &str| w.parse::<usize>().ok().filter(|_| w.len() <= 2);

@@ -71,6 +71,11 @@ fn script_without_head(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
+/// A text with points in its numbers, where they have commas, byte for byte.
+pub(super) fn with_points(text: &str) -> Cow<'_, str> {
+    decimal_points(text).map_or(Cow::Borrowed(text), Cow::Owned)
+}
+
 /// The lines with an `=` in them that are no longer than people write, each with its place.
 fn lines_with_equations(text: &str) -> impl Iterator<Item = (usize, &str)> {
     const LONGEST: usize = 2_000;

@@ -201,11 +201,11 @@ pub fn dynamics(
 /// # Errors
 /// If nothing is written in it.
 pub fn tongue(language: &str) -> Result<Tongue, Trouble> {
-    match language {
-        "en" => Ok(Tongue::English),
-        "fr" => Ok(Tongue::French),
-        _ => Err(Trouble::new(Kind::Usage, format!("documents are not written in `{language}`: en or fr"))),
-    }
+    let trouble = || {
+        let codes = Tongue::codes();
+        Trouble::new(Kind::Usage, format!("documents are not written in `{language}`: {codes}"))
+    };
+    Tongue::of_code(language).ok_or_else(trouble)
 }
 
 /// The report.

@@ -261,7 +261,9 @@ impl Facts {
 /// The table in its own letters.
 fn table(d: &Description) -> (Vec<String>, Vec<Vec<String>>) {
     let columns = d.columns();
-    let cell = |e: Expr, is_angle: bool| plain(&denavit_report::cell(e, is_angle), &Vocabulary::new());
+    let cell = |e: Expr, is_angle: bool| {
+        plain(&denavit_report::cell(e, is_angle, Tongue::English.words()), &Vocabulary::new())
+    };
     let letters = columns.iter().map(|c| c.letter(d.convention).to_string());
     let head = ["j".to_string(), String::new()].into_iter().chain(letters).chain(["limits".to_string()]);
     let rows = d.rows.iter().enumerate().map(|(i, row)| {

@@ -1,13 +1,15 @@
 //! Quantities as they stand in tables.
 
 use crate::document::Line;
+use crate::words::Wording;
 pub use denavit::quantity::decimals;
 use denavit_symbolic::{Angle, Expr, Rational};
 
 /// A length as a formula or in metres, an angle in degrees; what is no multiple of π in radians.
-pub fn cell(e: Expr, is_angle: bool) -> Line {
+pub fn cell(e: Expr, is_angle: bool, words: &dyn Wording) -> Line {
+    let written = |x: f64| words.written(decimals(x, 9));
     if let (false, Some(length)) = (is_angle, e.as_number()) {
-        return Line::new(decimals(length.to_f64(), 9));
+        return Line::new(written(length.to_f64()));
     }
     if !is_angle {
         return Line::default().math(e);
@@ -28,7 +30,7 @@ pub fn cell(e: Expr, is_angle: bool) -> Line {
             (false, true) => " − ",
             (false, false) => " + ",
         });
-        line = line.text(format!("{}{unit}", decimals(constant.abs().to_f64(), 9)));
+        line = line.text(format!("{}{unit}", written(constant.abs().to_f64())));
     }
     if line.0.is_empty() { Line::new("0") } else { line }
 }

@@ -27,6 +27,7 @@ pub struct Vocabulary {
     sliding: BTreeMap<u32, Symbol>,
     is_open: bool,
     in_degrees: bool,
+    has_decimal_comma: bool,
 }
 
 impl Vocabulary {
@@ -79,6 +80,18 @@ impl Vocabulary {
     pub fn degrees(mut self, degrees: bool) -> Self {
         self.in_degrees = degrees;
         self
+    }
+
+    /// Whether formulas are printed with a comma in decimal numbers, `0,5`, and semicolons between arguments with such numbers.
+    /// ASCII, which is read by programs, keeps points.
+    pub fn decimal_comma(mut self, comma: bool) -> Self {
+        self.has_decimal_comma = comma;
+        self
+    }
+
+    /// Whether formulas are printed with a comma in decimal numbers.
+    pub fn has_decimal_comma(&self) -> bool {
+        self.has_decimal_comma
     }
 
     /// The meaning of a whole word, subscript marks and braces left aside.

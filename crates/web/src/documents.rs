@@ -31,11 +31,8 @@ pub struct Written {
 /// # Errors
 /// If there is no such format or language.
 pub fn report(subject: &Subject, format: &str, language: &str, q: &[f64]) -> Result<Written, Refusal> {
-    let language = match language {
-        "en" => Tongue::English,
-        "fr" => Tongue::French,
-        other => return Err(Refusal::new(format!("reports are not written in `{other}`: en or fr"))),
-    };
+    let refusal = || Refusal::new(format!("reports are not written in `{language}`: {}", Tongue::codes()));
+    let language = Tongue::of_code(language).ok_or_else(refusal)?;
     let pose = Some(subject.configuration(q)?.to_vec());
     let document = denavit_report::report(
         &subject.description,

@@ -6,6 +6,7 @@
 
 use super::{Item, Rubric, fits, plain};
 use crate::outcome::{Checked, Finding};
+use crate::respelling;
 use crate::values_asked::{Answer, Answered, ValueSlip};
 use denavit_reading::document::{Document, Format, Side, Statement, read};
 use denavit_symbolic::parse::parse;
@@ -110,6 +111,7 @@ pub fn answer(rubric: &Rubric, text: &str, format: Format, checked: &mut Checked
     if rubric.items.iter().all(|item| item.answers.is_empty()) {
         return;
     }
+    let text = &*respelling::with_points(text);
     let document = read(text, format);
     let mut found: Vec<Answered> = vec![];
     // A formula and its value in one line: the formula is left to the check of the robot.

@@ -159,8 +159,9 @@ impl Walk<'_> {
     pub(super) fn told_minor(&self, whole: &Matrix) -> Option<Matrix> {
         const ROWS: [[&str; 2]; 6] =
             [["vx", "vx"], ["vy", "vy"], ["vz", "vz"], ["wx", "ωx"], ["wy", "ωy"], ["wz", "ωz"]];
-        let words: Vec<String> =
-            self.source(&self.last_prose).split([' ', ',', ':', ';', '$']).map(plain_name).collect();
+        // French has a blank that does not break before a colon.
+        let is_apart = |c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '$' | '~');
+        let words: Vec<String> = self.source(&self.last_prose).split(is_apart).map(plain_name).collect();
         let (rows, columns) = whole.shape()?;
         let is_row =
             |r: &usize| ROWS.get(*r).is_some_and(|names| words.iter().any(|w| names.contains(&&**w)));

@@ -237,6 +237,9 @@ pub struct IkArguments {
     /// How to print --explain and --symbolic
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["pose", "q", "input"])]
     pub format: Format,
+    /// The language of the derivation's words
+    #[arg(long, value_enum, default_value = "en", conflicts_with_all = ["pose", "q", "input", "json"])]
+    pub language: ReportLanguage,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
@@ -355,6 +358,9 @@ pub struct JacobianArguments {
     /// How to print --symbolic and --explain
     #[arg(long, value_enum, default_value_t = Format::Terminal, conflicts_with_all = ["q", "input"])]
     pub format: Format,
+    /// The language of their words
+    #[arg(long, value_enum, default_value = "en", conflicts_with_all = ["q", "input", "json"])]
+    pub language: ReportLanguage,
     /// Print JSON
     #[arg(long, conflicts_with = "format")]
     pub json: bool,
@@ -405,6 +411,9 @@ pub struct DeriveArguments {
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Terminal)]
     pub format: Format,
+    /// The language of the words
+    #[arg(long, value_enum, default_value = "en", conflicts_with = "json")]
+    pub language: ReportLanguage,
     /// Print JSON (the same as --format json)
     #[arg(long, conflicts_with = "format")]
     pub json: bool,

@@ -71,6 +71,10 @@ pub enum ReportLanguage {
     En,
     /// Français
     Fr,
+    /// Deutsch
+    De,
+    /// Español
+    Es,
 }
 
 impl ReportLanguage {
@@ -79,6 +83,8 @@ impl ReportLanguage {
         match self {
             ReportLanguage::En => Tongue::English,
             ReportLanguage::Fr => Tongue::French,
+            ReportLanguage::De => Tongue::German,
+            ReportLanguage::Es => Tongue::Spanish,
         }
     }
 }

@@ -12,6 +12,7 @@ use denavit::structure::{Relation, Structure};
 use denavit_report::document::plain;
 use denavit_report::figure::svg::{Palette, svg};
 use denavit_report::figure::{self, Arm};
+use denavit_report::words::Tongue;
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_wire::robot::{Robot, joints};
@@ -83,7 +84,7 @@ pub fn title(d: &Description) -> String {
 
 /// A quantity as it stands in a table: angles in degrees, lengths as formulas in metres.
 fn cell(e: Expr, is_angle: bool) -> String {
-    plain(&denavit_report::cell(e, is_angle), &Vocabulary::new())
+    plain(&denavit_report::cell(e, is_angle, Tongue::English.words()), &Vocabulary::new())
 }
 
 /// The table in its own letters, with base, tool and the values of the parameters.

@@ -184,7 +184,7 @@ class Derivations:
         return files
 
     def report(self, format: str = "html", *, language: str = "en") -> str:
-        """What a lab report would contain, as one page of ``html``, or as ``latex`` or ``typst``; in ``en`` or ``fr``."""
+        """What a lab report would contain, as one page of ``html``, or as ``latex`` or ``typst``; in ``en``, ``fr``, ``de`` or ``es``."""
         return self._core.report(format, language)
 
     def figure(self, q: Optional[ArrayLike] = None, *, scheme: bool = False) -> str:

@@ -76,6 +76,13 @@ pub struct Figure {
 }
 
 impl Document {
+    /// The parts, with names that spell numbers as the language of the document does.
+    pub(crate) fn spelled(&self) -> Vec<Section> {
+        let spelled =
+            |s: &Section| Section { names: self.language.spelled(&s.names), parts: s.parts.clone() };
+        self.sections.iter().map(spelled).collect()
+    }
+
     /// Whether there are pictures in it.
     pub fn has_figures(&self) -> bool {
         self.sections.iter().flat_map(|s| &s.parts).any(|part| matches!(part, Part::Figure(_)))
@@ -131,9 +138,11 @@ impl Part {
 
     /// Pictures side by side, each with a caption of its own.
     pub fn figures(words: &dyn Wording, mut pictures: Vec<(Drawing, Line)>, caption: Line) -> Self {
+        let names = Vocabulary::new().decimal_comma(words.has_decimal_comma());
         for (drawing, own) in &mut pictures {
-            let own = plain(own, &Vocabulary::new());
-            let whole = plain(&caption, &Vocabulary::new());
+            drawing.write_numbers(&|text| words.written(text));
+            let own = plain(own, &names);
+            let whole = plain(&caption, &names);
             drawing.description = if own.is_empty() { whole } else { words.picture(&own, &whole) };
         }
         Part::Figure(Figure { caption, pictures })

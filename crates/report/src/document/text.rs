@@ -29,6 +29,7 @@ pub fn text(
     language: Tongue,
     mark: &dyn Fn(Mark, &str) -> String,
 ) -> String {
+    let names = &language.spelled(names);
     let writer = Writer { names, words: language.words(), mark };
     let mut out = String::new();
     for block in blocks {

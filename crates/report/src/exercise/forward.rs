@@ -188,7 +188,7 @@ pub(super) fn table(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
     let q = chosen.quarters(&JointSpace::new(d, &robot));
     let walk = Walk::seen_from(&Robot::symbolic(d), &q, Reference::Base);
     let vector = |v: [Expr; 3]| {
-        let line = Line::new("(").list(v.map(|e| Math::Expr(settled(e))));
+        let line = Line::new("(").numbers(v.map(|e| Math::Expr(settled(e))), words.between());
         line.text(")")
     };
     let mut rows = vec![];

@@ -83,7 +83,7 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
             }
             let coordinates = one.pose.translation.0.iter().zip(["px", "py", "pz"]);
             let coordinates = coordinates.map(|(x, name)| quantity(Expr::symbol(name), *x, 4, "m"));
-            section.paragraph(Line::new(words.position_given()).list(coordinates));
+            section.paragraph(Line::new(words.position_given()).numbers(coordinates, words.between()));
         }
         for (j, f) in one.solutions.iter().enumerate() {
             let mut line = Line::new(words.numbered_solution(j + 1));

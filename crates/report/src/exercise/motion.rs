@@ -122,8 +122,10 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
     section.paragraph(words.gravity_in_base([x, y, z]));
     let (qd, qdd) = (&model.formulas.qd, &model.formulas.qdd);
     let states = [
-        Line::new(words.rates_given()).list(moving(qd, &rates, "")).text("."),
-        Line::new(words.accelerations_given()).list(moving(qdd, &accelerations, "2")).text("."),
+        Line::new(words.rates_given()).numbers(moving(qd, &rates, ""), words.between()).text("."),
+        Line::new(words.accelerations_given())
+            .numbers(moving(qdd, &accelerations, "2"), words.between())
+            .text("."),
     ];
     section.parts.extend(states.iter().cloned().map(|line| Block::Paragraph(line).into()));
     let mut given = vec![section];

@@ -153,7 +153,7 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
     given.paragraph(words.motion_ends(ground.configuration(&ends[1])));
     for (j, way) in ways.iter().enumerate() {
         let [v, a] = [(way.speed, "/s"), (way.acceleration, "/s²")]
-            .map(|(x, behind)| format!("{} {}", crate::decimals(x, 4), way.unit(behind)));
+            .map(|(x, behind)| words.written(format!("{} {}", crate::decimals(x, 4), way.unit(behind))));
         given.paragraph(words.joint_limits(Math::Expr(Expr::int(j as i64 + 1)), &v, &a));
     }
     let joints = ways.len() as u32;

@@ -148,7 +148,8 @@ impl<'a> Ground<'a> {
             JointKind::Revolute => quantity(v.symbol.into(), x.to_degrees(), 2, "°"),
             JointKind::Prismatic => quantity(v.symbol.into(), *x, 4, "m"),
         };
-        Line::default().list(q.iter().zip(&self.setting.description.variables()).map(value))
+        let all = q.iter().zip(&self.setting.description.variables()).map(value).collect::<Vec<_>>();
+        Line::default().numbers(all, self.words().between())
     }
 
     /// What people call joints and sums of them: `q1`, `θ12`; slides `d3`, `r3`.

@@ -52,14 +52,14 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
     let force: Vec<f64> = felt.iter().map(|_| chosen.force()).collect();
     let components = || felt.iter().zip(&force).map(|(&r, x)| quantity(Expr::symbol(FORCE[r]), *x, 2, "N"));
     let mut section = Section::new(names.clone());
-    section.paragraph(Line::new(words.force_given()).list(components()).text("."));
+    section.paragraph(Line::new(words.force_given()).numbers(components(), words.between()).text("."));
     let mut given = vec![section];
     given.extend(ground.given(&all));
     let (mut in_numbers, mut answers) = (Section::new(names), vec![]);
     for (k, q) in all.iter().enumerate() {
         in_numbers.heading(3, Line::new(words.configuration_title(k + 1)));
         in_numbers.paragraph(ground.configuration(q));
-        in_numbers.paragraph(Line::default().list(components()));
+        in_numbers.paragraph(Line::default().numbers(components(), words.between()));
         let columns = geometric(&robot, q, &Viewpoint::tool());
         let rows = columns.rows();
         for (j, &turns) in space.is_angle.iter().enumerate() {

@@ -96,10 +96,11 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
     let names = velocity_vocabulary(&s.description);
     let line = Line::new(words.rates_given());
     let variables = s.description.variables();
-    let line = line.list(variables.iter().zip(rates).map(|(v, x)| {
+    let rate = |(v, x): (&denavit::description::Variable, &f64)| {
         let unit = if v.kind == JointKind::Revolute { "rad/s" } else { "m/s" };
         Math::Quantity { of: v.symbol.into(), is_rate: true, digits: digits(*x, 4), unit }
-    }));
+    };
+    let line = line.numbers(variables.iter().zip(rates).map(rate), words.between());
     let twist = geometric(robot, q, &Viewpoint::tool()).twist(rates);
     let mut section = Section::new(names.clone());
     section.paragraph(ground.configuration(q));

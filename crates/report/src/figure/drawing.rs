@@ -15,6 +15,18 @@ pub struct Drawing {
     pub shapes: Vec<Shape>,
 }
 
+impl Drawing {
+    /// Writes the numbers of its labels in another way.
+    pub(crate) fn write_numbers(&mut self, write: &dyn Fn(String) -> String) {
+        for shape in &mut self.shapes {
+            let Shape::Text { label, .. } = shape else { continue };
+            for piece in label.0.iter_mut().filter(|p| !p.italic && !p.subscript) {
+                piece.text = write(std::mem::take(&mut piece.text));
+            }
+        }
+    }
+}
+
 /// A part of a drawing.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Shape {

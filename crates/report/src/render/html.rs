@@ -2,7 +2,7 @@
 //!
 //! The page is well-formed XML, too.
 
-use super::layout::{columns, display, equation, inline, is_wide, mark, named};
+use super::layout::{columns, display, equation, inline, is_wide, named};
 use super::nested::{Item, nested};
 use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
@@ -35,7 +35,7 @@ pub fn page_with(document: &Document, font: &str) -> String {
         tables: 0,
         said: document.language.words(),
     };
-    for section in &document.sections {
+    for section in &document.spelled() {
         writer.section(section);
     }
     let mut out = format!(
@@ -110,7 +110,7 @@ impl Writer {
                 let _ = writeln!(self.out, "<p>{}</p>", words(line, names));
             }
             Block::Formula { math, number, proof } => {
-                let mark = mark(*proof, ["✓", "≈", "NOT TRUE"]);
+                let mark = proof.map_or("", |proof| self.said.mark(proof));
                 let said = self.said.spoken_mark(mark);
                 let number = number.map(|n| format!("({n})")).unwrap_or_default();
                 let tail = match (number.is_empty(), mark.is_empty()) {
@@ -201,7 +201,7 @@ impl Writer {
 
     fn figure(&mut self, figure: &Figure, names: &Vocabulary) {
         self.figures += 1;
-        let word = "Figure";
+        let word = self.said.figure();
         self.out.push_str("<figure>\n");
         match &figure.pictures[..] {
             [(one, _)] => self.out += &svg(one, Palette::Page, &format!("f{}", self.figures)),

@@ -5,6 +5,7 @@ use super::nested::{Item, nested};
 use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::tikz::tikz;
+use crate::words::Wording;
 use denavit_symbolic::greek;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -22,8 +23,8 @@ pub fn fragment(document: &Document) -> String {
         if figures { ", and tikz for figures" } else { "" },
         escaped(&document.title)
     );
-    for section in &document.sections {
-        parts(section, "*", &mut out);
+    for section in &document.spelled() {
+        parts(section, document.language.words(), "*", &mut out);
     }
     out
 }
@@ -36,32 +37,41 @@ pub fn whole(document: &Document) -> String {
          \\allowdisplaybreaks\n\\setcounter{{MaxMatrixCols}}{{20}}\n\\setcounter{{secnumdepth}}{{1}}\n\\setlength{{\\parindent}}{{0pt}}\n\\setlength{{\\parskip}}{{4pt}}\n\\sloppy\n\\makeatletter\\@beginparpenalty=10000\\makeatother\n",
         env!("CARGO_PKG_VERSION")
     );
-    // Without a package for it: most installations have none but for English.
-    let table = document.language.words().table();
-    if table != "Table" {
-        let _ = writeln!(out, "\\renewcommand{{\\tablename}}{{{table}}}");
-    }
+    out += &language(document.language.words());
     let _ = writeln!(
         out,
         "\\title{{{}}}\n\\date{{}}\n\\author{{{}}}\n\\begin{{document}}\n\\maketitle\n",
         escaped(&document.title),
         escaped(document.author.as_deref().unwrap_or_default())
     );
-    for section in &document.sections {
-        parts(section, "", &mut out);
+    for section in &document.spelled() {
+        parts(section, document.language.words(), "", &mut out);
     }
     out + "\\end{document}\n"
 }
 
-fn parts(section: &Section, star: &str, out: &mut String) {
+/// Hyphenation, and the names of tables and figures. What an installation may lack is asked for first: most have babel for
+/// English alone, and letters with accents as letters, where words are to be hyphenated at all, with one more font.
+fn language(words: &dyn Wording) -> String {
+    let Some([name, options]) = words.babel() else { return String::new() };
+    format!(
+        "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}\\usepackage[T1]{{fontenc}}}}{{}}\n\
+         \\IfFileExists{{{name}.ldf}}{{\\usepackage[{options}]{{babel}}\\usetikzlibrary{{babel}}}}{{}}\n\
+         \\AtBeginDocument{{\\renewcommand{{\\tablename}}{{{}}}\\renewcommand{{\\figurename}}{{{}}}}}\n",
+        escaped(words.table()),
+        escaped(words.figure())
+    )
+}
+
+fn parts(section: &Section, said: &dyn Wording, star: &str, out: &mut String) {
     for (k, part) in section.parts.iter().enumerate() {
         match part {
             Part::Block(Block::Paragraph(line)) if part.introduces(section.parts.get(k + 1)) => {
                 let _ = writeln!(out, "\n\\noindent {}\\par\\nobreak", words(line, &section.names));
             }
-            Part::Block(of) => block(of, &section.names, star, out),
+            Part::Block(of) => block(of, &section.names, said, star, out),
             Part::Equations(all) => equations(all, &section.names, out),
-            Part::Beside(all) => beside(all, section, star, out),
+            Part::Beside(all) => beside(all, section, said, star, out),
             Part::Summary(rows) => summary(rows, &section.names, out),
             Part::Table(of) => table(of, &section.names, out),
             Part::Figure(of) => pictures(of, &section.names, out),
@@ -71,12 +81,12 @@ fn parts(section: &Section, star: &str, out: &mut String) {
 }
 
 /// Formulas beside each other; one that does not fit the page at all stands alone.
-fn beside(all: &[Math], section: &Section, star: &str, out: &mut String) {
+fn beside(all: &[Math], section: &Section, said: &dyn Wording, star: &str, out: &mut String) {
     for row in layout::beside(all, &section.names) {
         match row[..] {
             [one] => {
                 let formula = Block::Formula { math: one.clone(), number: None, proof: None };
-                block(&formula, &section.names, star, out);
+                block(&formula, &section.names, said, star, out);
             }
             _ => {
                 let set = row.iter().map(|m| math(m, &section.names, Style::Latex));
@@ -86,9 +96,9 @@ fn beside(all: &[Math], section: &Section, star: &str, out: &mut String) {
     }
 }
 
-fn block(block: &Block, names: &Vocabulary, star: &str, out: &mut String) {
+fn block(block: &Block, names: &Vocabulary, said: &dyn Wording, star: &str, out: &mut String) {
     if let Some(named) = named(block, names) {
-        self::block(&named.matrix, &named.names, star, out);
+        self::block(&named.matrix, &named.names, said, star, out);
         return equations(&named.entries, &named.names, out);
     }
     match block {
@@ -102,7 +112,8 @@ fn block(block: &Block, names: &Vocabulary, star: &str, out: &mut String) {
             let _ = writeln!(out, "\n\\noindent {}\n", words(line, names));
         }
         Block::Formula { math, number, proof } => {
-            let mark = mark(*proof, [" \\quad\\checkmark", " \\quad\\approx", " \\quad\\textbf{NOT TRUE}"]);
+            let wrong = |word: &str| format!(" \\quad\\textbf{{{word}}}");
+            let mark = mark(*proof, said, [" \\quad\\checkmark", " \\quad\\approx"], wrong);
             let tag = number.map(|n| format!(" \\tag{{{n}}}")).unwrap_or_default();
             let laid = display(math, names, Style::Latex);
             let formula = match &laid.lines[..] {
@@ -273,6 +284,7 @@ pub fn escaped(text: &str) -> String {
             '–' => out.push_str("--"),
             '—' => out.push_str("---"),
             '’' => out.push('\''),
+            '„' => out.push_str(",,"),
             '“' | '«' => out.push_str("``"),
             '”' | '»' => out.push_str("''"),
             ' '..='~' => out.push(c),

@@ -2,6 +2,7 @@
 
 use crate::document::{Block, Factor, Laid, Line, Math, Proof, aligned, laid, math, matrix_width, plain};
 use crate::document::{Document, Part, Table};
+use crate::words::Wording;
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, width};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -101,13 +102,18 @@ pub fn inline(m: &Math, names: &Vocabulary, style: Style) -> Vec<String> {
     parts
 }
 
-/// The mark behind a formula: proved, checked at samples, not true.
-pub fn mark(proof: Option<Proof>, marks: [&'static str; 3]) -> &'static str {
+/// The mark behind a formula: those of proved, of checked at samples, and what is made of the word for not true.
+pub fn mark(
+    proof: Option<Proof>,
+    words: &dyn Wording,
+    [proved, sampled]: [&str; 2],
+    wrong: impl Fn(&str) -> String,
+) -> String {
     match proof {
-        None => "",
-        Some(Proof::Proved) => marks[0],
-        Some(Proof::Sampled) => marks[1],
-        Some(Proof::Wrong) => marks[2],
+        None => String::new(),
+        Some(Proof::Proved) => proved.into(),
+        Some(Proof::Sampled) => sampled.into(),
+        Some(Proof::Wrong) => wrong(words.mark(Proof::Wrong)),
     }
 }
 

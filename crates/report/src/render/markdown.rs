@@ -33,7 +33,7 @@ pub fn whole(document: &Document, folder: &str) -> Markdown {
     if let Some(author) = &document.author {
         let _ = writeln!(writer.out, "{}\n", escaped(author));
     }
-    for section in &document.sections {
+    for section in &document.spelled() {
         writer.section(section);
     }
     Markdown { text: writer.out, figures: writer.figures }
@@ -92,8 +92,8 @@ impl Writer<'_> {
                 let _ = writeln!(self.out, "{}\n", words(line, names));
             }
             Block::Formula { math, number, proof } => {
-                let mark =
-                    mark(*proof, [" \\quad\\checkmark", " \\quad\\approx", " \\quad\\textbf{NOT TRUE}"]);
+                let wrong = |word: &str| format!(" \\quad\\textbf{{{word}}}");
+                let mark = mark(*proof, self.said, [" \\quad\\checkmark", " \\quad\\approx"], wrong);
                 let tag = number.map(|n| format!(" \\tag{{{n}}}")).unwrap_or_default();
                 let laid = display(math, names, Style::Latex);
                 let formula = match &laid.lines[..] {
@@ -170,7 +170,8 @@ impl Writer<'_> {
             self.figures.push((file, svg(drawing, Palette::File, "figure")));
         }
         self.pictures += 1;
-        let _ = writeln!(self.out, "\n**Figure {}.** {}\n", self.pictures, words(&figure.caption, names));
+        let (word, number) = (self.said.figure(), self.pictures);
+        let _ = writeln!(self.out, "\n**{word} {number}.** {}\n", words(&figure.caption, names));
     }
 }
 

@@ -6,6 +6,7 @@ use crate::document::{Block, BrokenLine, Laid, Line, Math, Piece, math};
 use crate::document::{Document, Figure, Part, Section, Table};
 use crate::figure::Drawing;
 use crate::figure::typst::typst as drawn;
+use crate::words::Wording;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
@@ -42,8 +43,8 @@ const LONG: usize = 20;
 pub fn fragment(document: &Document) -> String {
     let mut out = HEAD.to_string();
     let _ = writeln!(out, "#heading(level: 1, {})\n", quoted(&document.title));
-    for section in &document.sections {
-        parts(section, 0, &mut out);
+    for section in &document.spelled() {
+        parts(section, document.language.words(), 0, &mut out);
     }
     out
 }
@@ -64,23 +65,23 @@ pub fn whole(document: &Document) -> String {
         let _ = writeln!(out, "#set document(author: {author})\n#align(center, text(1.1em, {author}))");
     }
     out.push_str("#v(0.6em)\n\n");
-    for section in &document.sections {
-        parts(section, 1, &mut out);
+    for section in &document.spelled() {
+        parts(section, document.language.words(), 1, &mut out);
     }
     out
 }
 
 /// `up` is taken from the level of headings.
-fn parts(section: &Section, up: u8, out: &mut String) {
+fn parts(section: &Section, said: &dyn Wording, up: u8, out: &mut String) {
     for (k, part) in section.parts.iter().enumerate() {
         match part {
             Part::Block(Block::Paragraph(line)) if part.introduces(section.parts.get(k + 1)) => {
                 let _ =
                     writeln!(out, "#block(sticky: true, spacing: 0.95em)[{}]\n", words(line, &section.names));
             }
-            Part::Block(of) => block(of, &section.names, up, out),
+            Part::Block(of) => block(of, &section.names, said, up, out),
             Part::Equations(all) => equations(all, &section.names, out),
-            Part::Beside(all) => beside(all, section, up, out),
+            Part::Beside(all) => beside(all, section, said, up, out),
             Part::Summary(rows) => summary(rows, &section.names, out),
             Part::Table(of) => table(of, &section.names, out),
             Part::Figure(of) => pictures(of, &section.names, out),
@@ -92,12 +93,12 @@ fn parts(section: &Section, up: u8, out: &mut String) {
 }
 
 /// Formulas beside each other; one that does not fit the page at all stands alone.
-fn beside(all: &[Math], section: &Section, up: u8, out: &mut String) {
+fn beside(all: &[Math], section: &Section, said: &dyn Wording, up: u8, out: &mut String) {
     for row in layout::beside(all, &section.names) {
         match row[..] {
             [one] => {
                 let formula = Block::Formula { math: one.clone(), number: None, proof: None };
-                block(&formula, &section.names, up, out);
+                block(&formula, &section.names, said, up, out);
             }
             _ => {
                 let set = row.iter().map(|m| math(m, &section.names, Style::Typst));
@@ -107,9 +108,9 @@ fn beside(all: &[Math], section: &Section, up: u8, out: &mut String) {
     }
 }
 
-fn block(block: &Block, names: &Vocabulary, up: u8, out: &mut String) {
+fn block(block: &Block, names: &Vocabulary, said: &dyn Wording, up: u8, out: &mut String) {
     if let Some(named) = named(block, names) {
-        self::block(&named.matrix, &named.names, up, out);
+        self::block(&named.matrix, &named.names, said, up, out);
         return equations(&named.entries, &named.names, out);
     }
     match block {
@@ -121,10 +122,11 @@ fn block(block: &Block, names: &Vocabulary, up: u8, out: &mut String) {
             let _ = writeln!(out, "{}\n", words(line, names));
         }
         Block::Formula { math, number, proof } => {
-            let tail = mark(*proof, ["#sym.checkmark", "#sym.approx", "*NOT TRUE*"]);
+            let wrong = |word: &str| format!("*{word}*");
+            let tail = mark(*proof, said, ["#sym.checkmark", "#sym.approx"], wrong);
             let tail = match number {
                 Some(n) => format!("({n}) {tail}"),
-                None => tail.to_string(),
+                None => tail,
             };
             let formula = lines(&display(math, names, Style::Typst));
             if tail.is_empty() {

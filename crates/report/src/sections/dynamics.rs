@@ -28,12 +28,13 @@ pub fn section(s: &Setting) -> Option<Section> {
 fn at_rest(s: &Setting) -> Option<Part> {
     let arm = Dynamics::numeric(&s.valued).ok()?;
     let (gravity, inertia) = (gravity_torques(&arm, &s.q), inertia_matrix(&arm, &s.q));
+    let written = |x: f64| s.words().written(decimals(x, 4));
     let row = |(j, v): (usize, &denavit::description::Variable)| {
         let units = [torque_unit(v.kind), if v.kind == JointKind::Revolute { "kg m²" } else { "kg" }];
         vec![
             Line::default().math(Expr::from(v.symbol)),
-            Line::new(format!("{} {}", decimals(gravity[j], 4), units[0])),
-            Line::new(format!("{} {}", decimals(inertia[j][j], 4), units[1])),
+            Line::new(format!("{} {}", written(gravity[j]), units[0])),
+            Line::new(format!("{} {}", written(inertia[j][j]), units[1])),
         ]
     };
     let head = [Column::Joint, Column::Torque, Column::Inertia].map(|c| Line::new(s.words().column(c)));

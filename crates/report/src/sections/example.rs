@@ -3,7 +3,7 @@
 use super::setting::Setting;
 use crate::cell::decimals;
 use crate::document::{Factor, Line, Math, Part, Section, Table};
-use crate::words::{Caption, Column, Heading};
+use crate::words::{Caption, Column, Heading, Wording};
 use denavit::description::JointKind;
 use denavit::geometry::Transform;
 use denavit::geometry::orientation::{EulerSet, OrientationSet, extract};
@@ -33,7 +33,7 @@ pub fn section(s: &Setting) -> Option<Section> {
         let x = value(step.value, &values).ok()?;
         let symbol = Expr::symbol(&step.name);
         values.extend(symbol.as_symbol().map(|symbol| (symbol, x)));
-        rows.push([Line::default().math(symbol), Line::new(decimals(x, 6))]);
+        rows.push([Line::default().math(symbol), Line::new(s.words().written(decimals(x, 6)))]);
     }
     section.push(Part::Table(side_by_side(
         &rows,
@@ -46,7 +46,8 @@ pub fn section(s: &Setting) -> Option<Section> {
     section.formula(numbers(&pose));
     let angles = |set: OrientationSet| -> String {
         let values = extract(&pose.rotation, set).values;
-        values.iter().map(|x| format!("{}°", decimals(x.to_degrees(), 2))).collect::<Vec<_>>().join(", ")
+        let written = |x: &f64| s.words().written(format!("{}°", decimals(x.to_degrees(), 2)));
+        values.iter().map(written).collect::<Vec<_>>().join(s.words().between())
     };
     let (rpy, zyz) = (angles(OrientationSet::Rpy), angles(OrientationSet::Euler(EulerSet::ZYZ)));
     section.paragraph(Line::new(s.words().orientation(&rpy, &zyz)));
@@ -57,7 +58,7 @@ pub fn section(s: &Setting) -> Option<Section> {
         Some((by_steps(&name)? - entries[r][c]).abs())
     });
     let far = far.fold(0.0, f64::max);
-    section.paragraph(Line::new(s.words().difference(&power(far))));
+    section.paragraph(Line::new(s.words().difference(&s.words().written(power(far)))));
     Some(section)
 }
 
@@ -100,9 +101,9 @@ fn power(x: f64) -> String {
 }
 
 /// A joint's value in a table: degrees or metres, without unit.
-pub fn plain(x: f64, kind: JointKind) -> String {
-    match kind {
+pub fn plain(x: f64, kind: JointKind, words: &dyn Wording) -> String {
+    words.written(match kind {
         JointKind::Revolute => decimals(x.to_degrees(), 2),
         JointKind::Prismatic => decimals(x, 4),
-    }
+    })
 }

@@ -80,7 +80,8 @@ fn solutions(s: &Setting) -> Option<Section> {
         let mut line = Line::default();
         let variables = s.description.variables();
         for (k, &j) in solver.given.iter().enumerate() {
-            line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(variables[j].symbol));
+            line = line.text(if k > 0 { s.words().between() } else { "" });
+            line = line.math(Expr::from(variables[j].symbol));
             line = line.text(format!(" = {}", s.reading(s.q[j], variables[j].kind)));
         }
         section.paragraph(s.words().given_values(line));
@@ -135,7 +136,7 @@ fn table(s: &Setting, found: &[Solution], isolated: usize) -> Part {
     let rows = found.iter().enumerate().map(|(k, f)| {
         let star = if k < isolated { "" } else { "*" };
         let mut cells = vec![Line::new(format!("{}{star}", k + 1))];
-        cells.extend(f.q.iter().zip(&variables).map(|(x, v)| Line::new(plain(*x, v.kind))));
+        cells.extend(f.q.iter().zip(&variables).map(|(x, v)| Line::new(plain(*x, v.kind, s.words()))));
         if has_branches {
             cells.push(Line::new(s.words().branch(&f.branch)));
         }

@@ -202,15 +202,16 @@ impl<'a> Setting<'a> {
     pub fn assumed(&self) -> Option<Line> {
         let missing = self.description.parameters.iter().zip(&self.valued.parameters);
         let chosen: Vec<_> = missing.filter(|(own, _)| own.value.is_none()).map(|(_, p)| p).collect();
-        (!chosen.is_empty())
-            .then(|| quantities(Line::new(self.words().assumed_lengths()), &self.valued, &chosen))
+        (!chosen.is_empty()).then(|| {
+            quantities(Line::new(self.words().assumed_lengths()), &self.valued, &chosen, self.words())
+        })
     }
 
     /// The values of the joints in a line: `q1 = 30°, …`.
     pub fn configuration(&self, q: &[f64]) -> Line {
         let mut line = Line::default();
         for (k, (x, v)) in q.iter().zip(self.description.variables()).enumerate() {
-            line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(v.symbol));
+            line = line.text(if k > 0 { self.words().between() } else { "" }).math(Expr::from(v.symbol));
             line = line.text(format!(" = {}", self.reading(*x, v.kind)));
         }
         line
@@ -218,17 +219,15 @@ impl<'a> Setting<'a> {
 
     /// A joint's value with its unit.
     pub fn reading(&self, x: f64, kind: JointKind) -> String {
-        match kind {
-            JointKind::Revolute => {
-                format!("{}°", decimals(x.to_degrees(), 2))
-            }
+        self.words().written(match kind {
+            JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 2)),
             JointKind::Prismatic => format!("{} m", decimals(x, 4)),
-        }
+        })
     }
 }
 
 /// Parameters with their values and units behind the start of a sentence: `a2 = 0.4 m, … .`
-pub fn quantities(mut line: Line, d: &Description, all: &[&Parameter]) -> Line {
+pub fn quantities(mut line: Line, d: &Description, all: &[&Parameter], words: &dyn Wording) -> Line {
     let known = all.iter().filter_map(|p| Some((p.symbol, p.value?)));
     for (k, (symbol, value)) in known.enumerate() {
         let unit = match d.measure(symbol) {
@@ -236,8 +235,8 @@ pub fn quantities(mut line: Line, d: &Description, all: &[&Parameter]) -> Line {
             Measure::Length => " m".into(),
             Measure::Other(unit) => format!(" {unit}"),
         };
-        line = line.text(if k > 0 { ", " } else { "" }).math(Expr::from(symbol)).text(" = ");
-        line.0.extend(cell(value, d.measure(symbol) == Measure::Angle).0);
+        line = line.text(if k > 0 { words.between() } else { "" }).math(Expr::from(symbol)).text(" = ");
+        line.0.extend(cell(value, d.measure(symbol) == Measure::Angle, words).0);
         line = line.text(unit);
     }
     line.text(".")

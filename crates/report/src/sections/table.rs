@@ -75,14 +75,14 @@ pub fn rows(s: &Setting, d: &Description, section: &mut Section) {
             None => "–",
         };
         let mut cells = vec![Line::new(i.to_string()), Line::new(kind)];
-        cells.extend(columns.iter().map(|c| cell(c.of(row), c.turns())));
+        cells.extend(columns.iter().map(|c| cell(c.of(row), c.turns(), s.words())));
         if has_limits {
             let turns = row.variable.is_some_and(|v| v.kind == JointKind::Revolute);
             let mut line = Line::default();
             if let Some([low, high]) = row.limits {
-                line.0.extend(cell(low, turns).0);
+                line.0.extend(cell(low, turns, s.words()).0);
                 line = line.text(" … ");
-                line.0.extend(cell(high, turns).0);
+                line.0.extend(cell(high, turns, s.words()).0);
                 line = line.text(if turns { "" } else { " m" });
             }
             cells.push(line);
@@ -113,6 +113,6 @@ pub fn ends(s: &Setting, d: &Description, section: &mut Section) {
 pub fn values(s: &Setting, d: &Description, section: &mut Section) {
     let known: Vec<_> = d.parameters.iter().filter(|p| p.value.is_some()).collect();
     if !known.is_empty() {
-        section.paragraph(quantities(Line::new(s.words().values()), d, &known));
+        section.paragraph(quantities(Line::new(s.words().values()), d, &known, s.words()));
     }
 }

@@ -20,8 +20,9 @@ pub fn section(s: &Setting) -> Option<Section> {
         section.paragraph(assumed);
     }
     let [u, v] = workspace.section.symbols();
-    let metres = |x: f64| format!("{} m", decimals(x, 3));
-    let range = |x: [f64; 2]| format!("{} … {}", decimals(x[0], 3), metres(x[1]));
+    let written = |x: f64| s.words().written(decimals(x, 3));
+    let metres = |x: f64| format!("{} m", written(x));
+    let range = |x: [f64; 2]| format!("{} … {}", written(x[0]), metres(x[1]));
     let (first, second) = (range(workspace.extremes.first), range(workspace.extremes.second));
     let far = workspace.extremes.from_shoulder.filter(|_| workspace.extremes.shoulder.is_some()).map(metres);
     let mut line = Line::new(s.words().reach((u, &first), (v, &second), far.as_deref()));
@@ -59,9 +60,9 @@ fn with_travels(s: &Setting, mut space: JointSpace) -> (JointSpace, Vec<Assumed>
 fn taken(s: &Setting, mut line: Line, all: &[Assumed], words: String) -> Line {
     let variables = s.description.variables();
     for (k, one) in all.iter().enumerate() {
-        line = line.text(if k == 0 { &words } else { ", " });
+        line = line.text(if k == 0 { &words } else { s.words().between() });
         line = line.math(Expr::from(variables[one.joint].symbol));
-        let [low, high] = one.range.map(|x| decimals(x, 3));
+        let [low, high] = one.range.map(|x| s.words().written(decimals(x, 3)));
         line = line.text(if low == high { format!(" = {low} m") } else { format!(" = {low} … {high} m") });
     }
     if all.is_empty() { line } else { line.text(".") }

@@ -1,7 +1,7 @@
 //! A formula of a document in any style.
 
 use super::{Factor, Math, Sign};
-use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::print::{Style, print, print_digits};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 
@@ -236,6 +236,9 @@ impl Writer<'_> {
             Style::MathMl => {
                 format!("{function}<mo>(</mo>{}<mo>)</mo>", arguments.join("<mo>,</mo>"))
             }
+            _ if self.names.has_decimal_comma() && arguments.iter().any(|a| a.contains(',')) => {
+                format!("{function}({})", arguments.join("; "))
+            }
             _ => format!("{function}({})", arguments.join(", ")),
         }
     }
@@ -255,9 +258,10 @@ impl Writer<'_> {
     /// A decimal number; its sign is that of formulas.
     fn number(&self, text: &str) -> String {
         let (sign, digits) = text.strip_prefix('-').map_or(("", text), |digits| ("-", digits));
+        let digits = print_digits(digits, self.names, self.style);
         match (self.style, sign) {
-            (Style::MathMl, "") => format!("<mn>{digits}</mn>"),
-            (Style::MathMl, _) => format!("<mrow><mo>−</mo><mn>{digits}</mn></mrow>"),
+            (Style::MathMl, "") => digits,
+            (Style::MathMl, _) => format!("<mrow><mo>−</mo>{digits}</mrow>"),
             (Style::Unicode, "-") => format!("−{digits}"),
             _ => format!("{sign}{digits}"),
         }
@@ -304,6 +308,7 @@ impl Writer<'_> {
     fn grid(&self, rows: Vec<Vec<String>>) -> String {
         let joined = |cell: &str, row: &str| rows.iter().map(|r| r.join(cell)).collect::<Vec<_>>().join(row);
         match self.style {
+            Style::Unicode if self.names.has_decimal_comma() => format!("[{}]", joined("  ", "; ")),
             Style::Ascii | Style::Unicode => format!("[{}]", joined(", ", "; ")),
             Style::Latex => format!("\\begin{{bmatrix}} {} \\end{{bmatrix}}", joined(" & ", " \\\\ ")),
             Style::Typst => format!("mat(delim: \"[\", {})", joined(", ", "; ")),

@@ -91,10 +91,16 @@ impl Line {
 
     /// Several formulas with commas between them.
     #[must_use]
-    pub fn list(mut self, all: impl IntoIterator<Item = Math>) -> Self {
+    pub fn list(self, all: impl IntoIterator<Item = Math>) -> Self {
+        self.numbers(all, ", ")
+    }
+
+    /// Several formulas, which may be numbers, with what stands between numbers in a language.
+    #[must_use]
+    pub fn numbers(mut self, all: impl IntoIterator<Item = Math>, between: &str) -> Self {
         for (k, math) in all.into_iter().enumerate() {
             if k > 0 {
-                self = self.text(", ");
+                self = self.text(between);
             }
             self = self.math(math);
         }

@@ -10,9 +10,11 @@ mod english;
 mod exercise;
 mod french;
 mod geometry;
+mod german;
 mod inverse;
 mod motion;
 mod report;
+mod spanish;
 mod terms;
 mod velocity;
 
@@ -22,11 +24,15 @@ pub use english::English;
 pub use exercise::{Exercise, ExerciseKind};
 pub use french::French;
 pub use geometry::{Geometry, Whole};
+pub use german::German;
 pub use inverse::{Coefficients, Given, Inverse};
 pub use motion::Motion;
 pub use report::{Caption, Column, Factors, Glance, Heading, List, Names, Report, Standings};
+pub use spanish::Spanish;
 pub use terms::Terms;
 pub use velocity::{Gain, Loss, Velocity};
+
+use denavit_symbolic::vocabulary::Vocabulary;
 
 /// The language of the words around formulas.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -36,6 +42,10 @@ pub enum Tongue {
     English,
     /// French, with the terms of courses in robotics.
     French,
+    /// German.
+    German,
+    /// Spanish.
+    Spanish,
 }
 
 /// All messages.
@@ -48,13 +58,32 @@ impl<T: Terms + Geometry + Inverse + Velocity + Dynamics + Motion + Check + Repo
 
 impl Tongue {
     /// All languages.
-    pub const ALL: [Tongue; 2] = [Tongue::English, Tongue::French];
+    pub const ALL: [Tongue; 4] = [Tongue::English, Tongue::French, Tongue::German, Tongue::Spanish];
+
+    /// The language with this code: `en`, `fr`, `de`, `es`.
+    pub fn of_code(code: &str) -> Option<Tongue> {
+        Tongue::ALL.into_iter().find(|language| language.words().code() == code)
+    }
+
+    /// The codes of all languages: `en, fr, de or es`.
+    pub fn codes() -> String {
+        let codes = Tongue::ALL.map(|language| language.words().code());
+        let (last, before) = codes.split_last().unwrap_or((&"", &[]));
+        format!("{} or {last}", before.join(", "))
+    }
+
+    /// The names of formulas, for formulas with the decimal sign of the language.
+    pub fn spelled(self, names: &Vocabulary) -> Vocabulary {
+        names.clone().decimal_comma(self.words().has_decimal_comma())
+    }
 
     /// What is said in this language.
     pub fn words(self) -> &'static dyn Wording {
         match self {
             Tongue::English => &English,
             Tongue::French => &French,
+            Tongue::German => &German,
+            Tongue::Spanish => &Spanish,
         }
     }
 }

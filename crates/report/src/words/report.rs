@@ -173,6 +173,9 @@ pub trait Report {
     /// The word before the number of a table.
     fn table(&self) -> &'static str;
 
+    /// The word before the number of a figure.
+    fn figure(&self) -> &'static str;
+
     /// The label of a list of sections.
     fn contents(&self) -> &'static str;
 

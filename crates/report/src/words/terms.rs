@@ -11,6 +11,22 @@ pub trait Terms: Sync {
     /// Its code in HTML and Typst: `en`.
     fn code(&self) -> &'static str;
 
+    /// The language's name in babel, a package of LaTeX, and its options; nothing where no package is needed.
+    fn babel(&self) -> Option<[&'static str; 2]>;
+
+    /// Whether a half is written `0,5`.
+    fn has_decimal_comma(&self) -> bool;
+
+    /// A text of numbers, `0.5 m`, with the decimal sign of the language: where a point stands between digits.
+    fn written(&self, numbers: String) -> String {
+        if self.has_decimal_comma() { with_commas(&numbers) } else { numbers }
+    }
+
+    /// Between numbers of a list, which may have decimals.
+    fn between(&self) -> &'static str {
+        if self.has_decimal_comma() { "; " } else { ", " }
+    }
+
     /// The last of several behind the others: `a, b and c`.
     fn listed(&self, words: &[String]) -> String;
 
@@ -60,4 +76,15 @@ pub trait Terms: Sync {
         let all = branch.0.iter().map(|(label, choice)| format!("{}{choice}", self.label(*label)));
         all.collect::<Vec<_>>().join(" ")
     }
+}
+
+/// A text with commas for the points between digits.
+fn with_commas(text: &str) -> String {
+    let all: Vec<char> = text.chars().collect();
+    let is_digit = |k: usize| all.get(k).is_some_and(char::is_ascii_digit);
+    let one = |(k, c): (usize, &char)| match c {
+        '.' if k > 0 && is_digit(k - 1) && is_digit(k + 1) => ',',
+        c => *c,
+    };
+    all.iter().enumerate().map(one).collect()
 }

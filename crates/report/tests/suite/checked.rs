@@ -188,8 +188,8 @@ fn remarks() {
         "division by zero where D1 = 0 (q2 = a1 or a2)",
         "division par zéro pour D1 = 0 (q2 = a1 ou a2)",
     );
-    let [english, french] = Tongue::ALL.map(|l| l.words().remarked(&Remark::OffBy(2e9)));
-    assert_eq!([english.as_str(), french.as_str()], ["off by 2000000000", "écart de 2000000000"]);
+    expect(&|w| w.remarked(&Remark::OffBy(2e9)), "off by 2000000000", "écart de 2000000000");
+    expect(&|w| w.remarked(&Remark::OffBy(0.25)), "off by 0.25", "écart de 0,25");
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn slips_and_changes() {
         both(&|w| w.change(&change));
     }
     let zero = Change::Vanishing(Symbol::new("D1"));
-    assert_eq!(Tongue::ALL.map(|l| l.words().change(&zero)), ["D1 = 0"; 2]);
+    assert!(Tongue::ALL.iter().all(|l| l.words().change(&zero) == "D1 = 0"));
 }
 
 #[test]
@@ -437,7 +437,7 @@ fn all_said(checked: &Checked, words: &dyn Wording) -> Vec<String> {
 }
 
 #[test]
-fn documents_in_two_languages() {
+fn documents_in_all_languages() {
     for name in ["cylindrical", "stanford", "rx90"] {
         let path = format!("{}/../../examples/documents/{name}.md", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));

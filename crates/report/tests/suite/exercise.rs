@@ -24,7 +24,11 @@ fn robot(name: &str) -> Description {
 }
 
 fn made(name: &str, kind: ExerciseKind, seed: u64) -> Result<Exercise, NoExercise> {
-    exercise(&robot(name), &ExerciseOptions { kind, seed, count: 1, language: Tongue::English })
+    made_in(Tongue::English, name, kind, seed)
+}
+
+fn made_in(language: Tongue, name: &str, kind: ExerciseKind, seed: u64) -> Result<Exercise, NoExercise> {
+    exercise(&robot(name), &ExerciseOptions { kind, seed, count: 1, language })
 }
 
 fn judged(text: &str, format: Format, of: &Description) -> Checked {
@@ -108,6 +112,44 @@ fn solutions_are_proved_and_earn_all_points() {
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
     assert!(made_of.iter().all(|n| *n >= 3), "{made_of:?}");
+}
+
+/// In every language, with its decimal sign, the same solutions are right, in LaTeX and Typst, too.
+#[test]
+fn solutions_in_every_language_earn_all_points() {
+    let mut found = vec![];
+    for (name, kind) in [
+        ("planar-3r", ExerciseKind::Forward),
+        ("scara", ExerciseKind::Table),
+        ("spherical-rrp", ExerciseKind::Inverse),
+        ("scara", ExerciseKind::Jacobian),
+        ("planar-2r", ExerciseKind::Singularities),
+        ("cylindrical-rpp", ExerciseKind::Transforms),
+        ("planar-2r", ExerciseKind::Position),
+        ("scara", ExerciseKind::Statics),
+        ("planar-2r", ExerciseKind::Torques),
+        ("spherical-rrp", ExerciseKind::Path),
+    ] {
+        for language in Tongue::ALL {
+            let e = made_in(language, name, kind, 3).unwrap_or_else(|why| panic!("{name}, {kind:?}: {why}"));
+            let markdown = render::markdown(&e.solution, "figures").text;
+            let has_comma = language.words().has_decimal_comma();
+            let decimals = |sign: &str| (0..10).any(|n| markdown.contains(&format!("{sign}{n}")));
+            assert!(!has_comma || !decimals("."), "{name}, {kind:?}, {language:?}: a point in {markdown}");
+            let mut texts = vec![(markdown.clone(), Format::Markdown)];
+            // Tables of LaTeX are none that is read.
+            if kind != ExerciseKind::Table {
+                texts.push((render::latex_fragment(&e.solution), Format::Latex));
+            }
+            for (text, format) in texts {
+                let faults = faults(&e, &text, format, &e.robot);
+                found.extend(
+                    faults.into_iter().map(|f| format!("{name}, {kind:?}, {language:?}, {format:?}: {f}")),
+                );
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 /// Held against the robot of the catalogue, too, and as LaTeX, whose tables are none that is read.

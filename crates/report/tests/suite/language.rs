@@ -1,4 +1,4 @@
-//! Documents in two languages: of the same structure, with the same formulas, each in its own words.
+//! Documents in several languages: of the same structure, with the same formulas, each in its own words.
 
 use denavit::catalogue;
 use denavit::description::{Description, JointKind, Moved, read_toml};
@@ -44,17 +44,26 @@ const ROBOTS: [&str; 12] = [
     "spherical-wrist",
 ];
 
-/// Words that no French text has.
-const ENGLISH: &str = "the of and with row rows column columns joint joints value values used step steps where both axis \
-    is are it its this that no not to in at by from given sought arm hand side sides lost gained frame velocity together \
-    proved body tool linear squares all so then else free one two always exactly shoulder elbow wrist reach entries chain \
-    branch what which has have right here there elements other pairs root roots move moves turn meet meets lies lie \
-    sine cosine cosines unknown parameters alone derivation closed forms";
-
-/// Words that no English text has.
-const FRENCH: &str = "le la les des du de et est sont une un avec ou pour dans sur par ligne lignes colonne colonnes étape \
-    étapes valeur valeurs articulation articulations repère au aux bras épaule coude poignet axe sert inconnue résolution \
-    deux membres si que qui ne pas sinon rien aucune d l s n";
+/// Words of each language, in the order of [`Tongue::ALL`]: a text in another has none of them that is not its own, too.
+const WORDS: [&str; 4] = [
+    "the of and with row rows column columns joint joints value values used step steps where both axis is are it its this that no not \
+     to in at by from given sought arm hand side sides lost gained frame velocity together proved body tool linear squares all so \
+     then else free one two always exactly shoulder elbow wrist reach entries chain branch what which has have right here there \
+     elements other pairs root roots move moves turn meet meets lies lie sine cosine cosines unknown parameters alone derivation \
+     closed forms also an for as on line lines more than when only",
+    "le la les des du de et est sont une un avec ou pour dans sur par ligne lignes colonne colonnes étape étapes valeur valeurs \
+     articulation articulations repère au aux bras épaule coude poignet axe sert inconnue résolution deux membres si que qui ne pas \
+     sinon rien aucune où d l s n en racine racines se son on",
+    "der die das des dem den und ist sind ein eine einer eines einem einen mit oder für auf von zu zur zum im am an in bei nicht kein \
+     keine alle aus wo wie sich so also hat haben wird werden nur noch nach gleich achse achsen gelenk gelenke gelenken zeile zeilen \
+     spalte spalten wert werte schritt schritte schritten arm basis werkzeug endeffektor stellung schulter ellenbogen handgelenk \
+     bewiesen lösung lösungen zwei beide seite seiten sonst gegeben gesucht formel formeln linear winkel drehung richtung es um \
+     determinante",
+    "el la los las de del en es son una un con para por que no se si más como cada valor valores fila filas columna columnas \
+     articulación articulaciones eslabón eslabones brazo hombro codo muñeca alcance efector sistema herramienta demostrado paso pasos \
+     rama ramas solución soluciones dos tres ambos ambas solo donde su sus lo al hay luego sea incógnita miembro eje ejes otra otro \
+     par pares den le ningún ninguna determinante giro",
+];
 
 /// The text of a line, its formulas as `#`.
 fn words(line: &Line) -> String {
@@ -119,23 +128,32 @@ fn tokens(text: &str) -> Vec<String> {
     all.map(str::to_lowercase).collect()
 }
 
+fn words_of(language: Tongue) -> impl Iterator<Item = &'static str> {
+    let place = Tongue::ALL.iter().position(|l| *l == language).expect("one of all");
+    WORDS[place].split_whitespace()
+}
+
 /// Panics where a text is not in its language.
 pub fn check_text(text: &str, language: Tongue, place: &str) {
-    let foreign = match language {
-        Tongue::English => FRENCH,
-        Tongue::French => ENGLISH,
-    };
+    let own: Vec<&str> = words_of(language).collect();
+    let others = Tongue::ALL.into_iter().filter(|l| *l != language).flat_map(words_of);
+    let foreign: Vec<&str> = others.filter(|word| !own.contains(word)).collect();
     for word in tokens(text) {
-        // `d` and `s` are lengths as well as what an apostrophe leaves; in English only 's.
-        let is_name = word.chars().count() == 1 && language == Tongue::English;
-        assert!(is_name || !foreign.split_whitespace().any(|f| f == word), "{place}: {word} in: {text}");
+        // `d` and `s` are lengths as well as what an apostrophe leaves.
+        let is_name = word.chars().count() == 1;
+        assert!(is_name || !foreign.contains(&word.as_str()), "{place}: {word} in: {text}");
     }
-    if language == Tongue::English {
+    if language != Tongue::French {
         assert!(!text.contains(['\u{a0}', '’']), "{place}: {text}");
-        return;
     }
     let all: Vec<char> = text.chars().collect();
+    let is_digit = |k: usize| all.get(k).is_some_and(char::is_ascii_digit);
     for (k, c) in all.iter().enumerate() {
+        let is_decimal = |sign: char| *c == sign && k > 0 && is_digit(k - 1) && is_digit(k + 1);
+        assert!(language == Tongue::English || !is_decimal('.'), "{place}: a point in: {text}");
+        if language != Tongue::French {
+            continue;
+        }
         if matches!(c, ':' | ';' | '?' | '!' | '»') {
             assert_eq!(k.checked_sub(1).map(|b| all[b]), Some('\u{a0}'), "{place}: {c} in: {text}");
         }
@@ -146,16 +164,22 @@ pub fn check_text(text: &str, language: Tongue, place: &str) {
     }
 }
 
-/// Panics where two documents are not the same in two languages.
-fn check_pair(english: &[Block], french: &[Block], name: &str, place: &str) {
-    let [english, french] = [english, french].map(|blocks| Parts::of(blocks, name));
-    assert_eq!(english.structure, french.structure, "{place}");
-    for (e, f) in english.lines.iter().zip(&french.lines) {
-        check_text(e, Tongue::English, place);
-        check_text(f, Tongue::French, place);
-        let is_sentence = tokens(e).iter().filter(|w| w.chars().count() > 1).count() >= 4;
-        assert!(!is_sentence || e != f, "{place}: {e}");
+/// Panics where documents are not the same in all languages, English first.
+fn check_all(all: &[Vec<Block>], name: &str, place: &str) {
+    let all: Vec<Parts> = all.iter().map(|blocks| Parts::of(blocks, name)).collect();
+    let english = &all[0];
+    for (parts, language) in all.iter().zip(Tongue::ALL) {
+        assert_eq!(english.structure, parts.structure, "{place}");
+        for (e, line) in english.lines.iter().zip(&parts.lines) {
+            check_text(line, language, place);
+            let is_sentence = tokens(e).iter().filter(|w| w.chars().count() > 1).count() >= 4;
+            assert!(language == Tongue::English || !is_sentence || e != line, "{place}: {e}");
+        }
     }
+}
+
+fn in_all(document: impl Fn(Tongue) -> Vec<Block>) -> Vec<Vec<Block>> {
+    Tongue::ALL.into_iter().map(document).collect()
 }
 
 /// Arms that need more than the catalogue's: three axes before a wrist that are neither parallel nor at right angles, a
@@ -239,13 +263,12 @@ fn explanation(description: &Description, goal: Goal, name: &str) -> Explanation
     }
 }
 
-/// Both documents in both languages; the French derivation.
-fn check_inverse(description: &Description, goal: Goal, name: &str) -> (Explanation, Vec<Block>) {
+/// Both documents in all languages; the derivation in each.
+fn check_inverse(description: &Description, goal: Goal, name: &str) -> (Explanation, Vec<Vec<Block>>) {
     let e = explanation(description, goal, name);
-    let [english, french] = [Tongue::English, Tongue::French];
-    check_pair(&e.summary(english), &e.summary(french), &description.name, name);
-    let whole = e.document(french);
-    check_pair(&e.document(english), &whole, &description.name, name);
+    check_all(&in_all(|language| e.summary(language)), &description.name, name);
+    let whole = in_all(|language| e.document(language));
+    check_all(&whole, &description.name, name);
     (e, whole)
 }
 
@@ -253,11 +276,11 @@ fn check_inverse(description: &Description, goal: Goal, name: &str) -> (Explanat
 fn documents_of_inverse_kinematics() {
     let (mut stuck, mut free, mut conditions, mut trees) = (0, 0, 0, 0);
     for name in ROBOTS {
-        let (e, french) = check_inverse(&robot(name), Goal::Pose, name);
+        let (e, documents) = check_inverse(&robot(name), Goal::Pose, name);
         stuck += usize::from(e.solutions.is_none());
         free += usize::from(e.given_by_choice);
         conditions += usize::from(!e.leftovers.is_empty());
-        trees += usize::from(french.iter().any(|b| matches!(b, Block::Tree(_))));
+        trees += usize::from(documents[0].iter().any(|b| matches!(b, Block::Tree(_))));
     }
     // Each kind of document was there.
     assert!(stuck >= 1 && free >= 2 && conditions >= 3 && trees >= 6, "{stuck} {free} {conditions} {trees}");
@@ -267,14 +290,24 @@ fn documents_of_inverse_kinematics() {
 
 #[test]
 fn documents_of_made_arms() {
-    let mut said = String::new();
+    let mut said = vec![String::new(); Tongue::ALL.len()];
     for (name, text) in MADE {
         let description = read_toml(text).unwrap_or_else(|errors| panic!("{name}: {errors:?}")).0;
-        let (_, french) = check_inverse(&description, Goal::Pose, name);
-        said += &Parts::of(&french, "Made").lines.join("\n");
+        let (_, documents) = check_inverse(&description, Goal::Pose, name);
+        for (said, document) in said.iter_mut().zip(&documents) {
+            *said += &Parts::of(document, "Made").lines.join("\n");
+        }
     }
-    for part in ["s’élimine", "demi-tour", "du second degré"] {
-        assert!(said.contains(part), "{part}: {said}");
+    let rare = [
+        ["goes out", "half turn", "quadratic"],
+        ["s’élimine", "demi-tour", "du second degré"],
+        ["fällt heraus", "halbe Umdrehung", "quadratisch"],
+        ["se elimina", "media vuelta", "cuadrática"],
+    ];
+    for (said, parts) in said.iter().zip(rare) {
+        for part in parts {
+            assert!(said.contains(part), "{part}: {said}");
+        }
     }
 }
 
@@ -284,13 +317,13 @@ fn documents_of_velocities() {
     for name in ROBOTS {
         let description = robot(name);
         let model = JacobianModel::shortest(&description, Reference::Tool);
-        let document = |language| jacobian_document(&description, &model, language);
-        check_pair(&document(Tongue::English), &document(Tongue::French), &description.name, name);
+        let documents = in_all(|language| jacobian_document(&description, &model, language));
+        check_all(&documents, &description.name, name);
         match Singularities::derive(&description, Reference::Tool) {
             Ok(found) => {
                 whole += 1;
-                let document = |language| singularities_document(&description, &found, language);
-                check_pair(&document(Tongue::English), &document(Tongue::French), &description.name, name);
+                let documents = in_all(|language| singularities_document(&description, &found, language));
+                check_all(&documents, &description.name, name);
             }
             Err(why) => {
                 for language in Tongue::ALL {
@@ -316,12 +349,18 @@ fn rare_words() {
         offsets: 2,
         hoisted: 4,
     };
-    let french = "1 multiplication, 2 additions, 3 couples sinus-cosinus, 1 division, 2 racines, 1 arc tangente\u{a0}; à \
+    let french = "1 multiplication, 2 additions, 3 paires sinus-cosinus, 1 division, 2 racines, 1 arc tangente\u{a0}; à \
                   part\u{a0}: 2 décalages de variables, 4 opérations sur les seuls paramètres";
-    let [in_english, in_french] = Tongue::ALL.map(Tongue::words);
+    let [in_english, in_french, in_german, in_spanish] = Tongue::ALL.map(Tongue::words);
     assert_eq!(in_french.count(&program), french);
+    let german = "1 Multiplikation, 2 Additionen, 3 Sinus-Kosinus-Paare, 1 Division, 2 Wurzeln, 1 Arkustangens; dazu 2 \
+                  Versätze von Variablen, 4 Operationen mit den Parametern allein";
+    assert_eq!(in_german.count(&program), german);
+    let spanish = "1 multiplicación, 2 sumas, 3 pares seno-coseno, 1 división, 2 raíces, 1 arcotangente; aparte, 2 desfases de \
+                   variables, 4 operaciones solo con parámetros";
+    assert_eq!(in_spanish.count(&program), spanish);
     assert_eq!(in_english.count(&program), program.to_string());
-    assert_eq!(in_french.count(&Count::default()), "0 multiplication, 0 addition, 0 couple sinus-cosinus");
+    assert_eq!(in_french.count(&Count::default()), "0 multiplication, 0 addition, 0 paire sinus-cosinus");
 
     use denavit_symbolic::Refusal::{OutsideBasis, TooLarge, Undefined};
     for why in [OutsideBasis, TooLarge, Undefined] {
@@ -380,7 +419,7 @@ fn rare_words() {
     }
 }
 
-/// Panics where a message is not in its language, or the same in two.
+/// Panics where a message is not in its language, or the same as in English.
 #[track_caller]
 pub fn both(message: &dyn Fn(&'static dyn Wording) -> String) {
     let said = Tongue::ALL.map(|language| message(language.words()));
@@ -389,8 +428,8 @@ pub fn both(message: &dyn Fn(&'static dyn Wording) -> String) {
         // What stands in backquotes is of no language.
         let words: Vec<&str> = text.split('`').step_by(2).collect();
         check_text(&words.join("`"), language, "a message");
+        assert!(language == Tongue::English || *text != said[0], "{language:?}: {text}");
     }
-    assert_ne!(said[0], said[1]);
 }
 
 #[test]
@@ -539,4 +578,14 @@ fn names_of_branches() {
     assert_eq!(Tongue::English.words().branch(&branch), branch.to_string());
     assert_eq!(Tongue::French.words().branch(&branch), "épaule+ coude2− poignet3");
     assert_eq!(Tongue::French.words().numbers(&[0, 3, 4]), "1, 4 et 5");
+    assert_eq!(Tongue::German.words().branch(&branch), "Schulter+ Ellenbogen2− Handgelenk3");
+    assert_eq!(Tongue::German.words().numbers(&[0, 3, 4]), "1, 4 und 5");
+    assert_eq!(Tongue::Spanish.words().branch(&branch), "hombro+ codo2− muñeca3");
+    let listed = |words: &[&str]| {
+        Tongue::Spanish.words().listed(&words.iter().map(ToString::to_string).collect::<Vec<_>>())
+    };
+    assert_eq!(
+        [listed(&["2 erróneas", "1 ilegible"]), listed(&["una", "ilegible"])],
+        ["2 erróneas y 1 ilegible", "una e ilegible"]
+    );
 }

@@ -9,5 +9,6 @@ mod explain;
 mod fed_back;
 mod figures;
 mod language;
+mod messages;
 mod plot;
 mod report;

@@ -1,5 +1,6 @@
 //! Reports of the whole catalogue, as trees and as pages.
 
+use crate::language::check_text;
 use denavit::catalogue;
 use denavit::description::{Convention, Description};
 use denavit_report::document::{Block, Branch, Line, math, plain};
@@ -113,8 +114,7 @@ fn each_robot(check: impl Fn(&str) + Sync) {
 fn every_robot_has_a_page() {
     let folder = std::env::var_os("DENAVIT_DOCUMENTS").map(PathBuf::from);
     each_robot(|name| {
-        let languages = [Tongue::English, Tongue::French];
-        for document in reports(&description(name), &ReportOptions::default(), &languages) {
+        for document in reports(&description(name), &ReportOptions::default(), &Tongue::ALL) {
             check_page(name, &render::html(&document));
             // What is a formula in one notation is one in the others.
             assert!(!render::latex(&document).contains("NaN"), "{name}");
@@ -219,7 +219,7 @@ fn words(document: &Document) -> Vec<String> {
     found
 }
 
-/// A robot with masses has a section on dynamics, in either language; one without has none.
+/// A robot with masses has a section on dynamics, in every language; one without has none.
 #[test]
 fn masses_have_a_section() {
     let options = ReportOptions { topics: vec![Topic::Dynamics], ..ReportOptions::default() };
@@ -228,23 +228,23 @@ fn masses_have_a_section() {
     for (k, row) in d.rows.iter_mut().enumerate() {
         row.mass = Some(denavit_symbolic::Expr::int(3 - k as i64));
     }
-    let languages = [Tongue::English, Tongue::French];
-    let [english, french] = &reports(&d, &options, &languages)[..] else { panic!() };
-    let (english, french) = (outline(english), outline(french));
+    let all: Vec<String> = reports(&d, &options, &Tongue::ALL).iter().map(outline).collect();
+    let (english, french, german) = (&all[0], &all[1], &all[2]);
     for part in
         ["Dynamics", "Base parameters", "proved equal to Lagrange's equations", "What holds the arm at rest"]
     {
         assert!(english.contains(part), "{part}: {english}");
     }
     assert!(french.contains("Modèle dynamique") && french.contains("Ce qui maintient le bras"), "{french}");
+    assert!(
+        german.contains("Basisparameter") && german.contains("Was den Arm gegen die Schwerkraft"),
+        "{german}"
+    );
 }
 
+/// Every word of a report is of its language, and numbers have its decimal sign.
 #[test]
-fn french_is_french() {
-    const ENGLISH: &[&str] = &[
-        "the", "of", "and", "with", "joint", "row", "value", "values", "step", "where", "both", "which",
-        "found", "reaches",
-    ];
+fn reports_are_in_their_language() {
     let topics: Vec<Topic> = Topic::ALL.into_iter().filter(|t| *t != Topic::References).collect();
     for name in [
         "staubli-rx90",
@@ -258,21 +258,50 @@ fn french_is_french() {
         let mut d = description(name);
         d.source = None;
         let conventions = Convention::ALL.to_vec();
-        let options = ReportOptions {
-            language: Tongue::French,
-            topics: topics.clone(),
-            conventions,
-            ..ReportOptions::default()
-        };
-        for text in words(&report(&d, &options)) {
-            let tokens = text.split(|c: char| !c.is_alphabetic());
-            let english: Vec<&str> =
-                tokens.filter(|t| ENGLISH.contains(&t.to_lowercase().as_str())).collect();
-            assert!(english.is_empty(), "{name}: {english:?} in {text:?}");
-            for sign in [" ;", " :", " ?", " !"] {
-                assert!(!text.contains(sign), "{name}: a blank that may break before {sign:?} in {text:?}");
+        let options = ReportOptions { topics: topics.clone(), conventions, ..ReportOptions::default() };
+        for document in reports(&d, &options, &Tongue::ALL) {
+            for text in words(&document) {
+                check_text(&text, document.language, name);
+                for sign in [" ;", " :", " ?", " !"] {
+                    assert!(
+                        !text.contains(sign),
+                        "{name}: a blank that may break before {sign:?} in {text:?}"
+                    );
+                }
             }
         }
+    }
+}
+
+/// A decimal number has the sign of the language in every format, and nowhere that of another.
+#[test]
+fn decimal_signs_are_those_of_the_language() {
+    let d = description("abb-irb120");
+    let topics = vec![Topic::Table, Topic::Example, Topic::Inverse, Topic::Workspace];
+    let options = ReportOptions { topics, ..ReportOptions::default() };
+    for document in reports(&d, &options, &Tongue::ALL) {
+        let has_comma = document.language.words().has_decimal_comma();
+        let [latex, typst] = [render::latex_fragment(&document), render::typst_fragment(&document)];
+        let [html, markdown] = [render::html(&document), render::markdown(&document, "figures").text];
+        for (format, text, comma) in [
+            ("LaTeX", &latex, "0{,}"),
+            ("Typst", &typst, "\"0,"),
+            ("HTML", &html, "<mn>0,"),
+            ("Markdown", &markdown, "0{,}"),
+        ] {
+            assert_eq!(text.contains(comma), has_comma, "{format}, {:?}", document.language);
+        }
+        let matrix = markdown.split("$$").find(|m| m.contains("\\begin{bmatrix}")).expect("the pose");
+        assert_eq!(matrix.contains("{,}"), has_comma, "{matrix}");
+        assert_ne!(matrix.contains('.'), has_comma, "{matrix}");
+        let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        let is_decimal = |text: &str, sign: char| {
+            text.match_indices(sign).any(|(k, _)| {
+                is_digit(text[..k].chars().next_back()) && is_digit(text[k + 1..].chars().next())
+            })
+        };
+        let tables: String = markdown.lines().filter(|l| l.starts_with('|') && !l.contains("![")).collect();
+        assert_eq!([is_decimal(&tables, '.'), is_decimal(&tables, ',')], [!has_comma, has_comma], "{tables}");
     }
 }
 

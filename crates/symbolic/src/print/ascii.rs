@@ -42,6 +42,8 @@ pub(super) const NOTATION: Notation = Notation {
     power: ["", "^"],
     exponent,
     digits: |text| text,
+    comma: |text| text,
+    semicolon: ", ",
     symbol,
     trig,
     times: |_: &Seam| "*",

@@ -41,8 +41,7 @@ struct Piece {
 
 /// The text cut where it may be broken and where brackets stand.
 fn pieces(e: Expr, vocabulary: &Vocabulary, style: Style) -> Vec<Piece> {
-    let mut printer = Printer::new(vocabulary, style);
-    printer.write(e);
+    let printer = Printer::of(e, vocabulary, style);
     let [open, close] = printer.notation.paren;
     let mut pieces: Vec<Piece> = vec![];
     let mut frozen = 0;

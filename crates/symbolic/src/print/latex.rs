@@ -26,6 +26,8 @@ pub(super) const NOTATION: Notation = Notation {
     power: ["", "^"],
     exponent: |n| format!("{{{n}}}"),
     digits: |text| text,
+    comma: |text| text.replace('.', "{,}"),
+    semicolon: "; ",
     symbol,
     trig: |letter: char, index: &Index| format!("{letter}_{{{}}}", index.text),
     times,

@@ -25,6 +25,8 @@ pub(super) const NOTATION: Notation = Notation {
     power: ["<msup>", ""],
     exponent,
     digits: |text| format!("<mn>{text}</mn>"),
+    comma: |text| format!("<mn>{}</mn>", text.replace('.', ",")),
+    semicolon: "<mo>;</mo>",
     symbol,
     trig,
     times,

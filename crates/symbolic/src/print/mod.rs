@@ -58,12 +58,14 @@ pub enum Style {
 
 /// The formula as text. Angles that the vocabulary numbers are written `C23`, `S1`, `C_{2-3}`.
 pub fn print(e: Expr, vocabulary: &Vocabulary, style: Style) -> String {
-    let mut printer = Printer::new(vocabulary, style);
+    let printer = Printer::of(e, vocabulary, style);
     let [before, after] = printer.notation.whole;
-    printer.out.push_str(before);
-    printer.write(e);
-    printer.out.push_str(after);
-    printer.out
+    format!("{before}{}{after}", printer.out)
+}
+
+/// A decimal number, digits with a point, as it stands in a formula.
+pub fn print_digits(digits: &str, vocabulary: &Vocabulary, style: Style) -> String {
+    (Printer::new(vocabulary, style).notation.digits)(digits.to_string())
 }
 
 /// A symbol's name as it stands in a formula, for tables and legends: `RL4` is `\mathit{RL}_{4}` in LaTeX.
@@ -142,6 +144,8 @@ impl<'a> Printer<'a> {
             Style::Ascii | Style::Unicode | Style::Latex => style.notation().beside(vocabulary),
             Style::Typst | Style::MathMl => *style.notation(),
         };
+        let comma = vocabulary.has_decimal_comma();
+        let notation = if comma { Notation { digits: notation.comma, ..notation } } else { notation };
         Printer {
             notation,
             vocabulary,
@@ -150,6 +154,20 @@ impl<'a> Printer<'a> {
             out: String::new(),
             marks: vec![],
         }
+    }
+
+    /// With the formula written: its arguments have semicolons between them where a number has a comma.
+    fn of(e: Expr, vocabulary: &'a Vocabulary, style: Style) -> Self {
+        let mut printer = Printer::new(vocabulary, style);
+        printer.write(e);
+        let calls = printer.marks.iter().any(|m| m.1 == Mark::Comma);
+        if calls && vocabulary.has_decimal_comma() && has_comma_in_number(&printer.out) {
+            let mut again = Printer::new(vocabulary, style);
+            again.notation.call[1] = again.notation.semicolon;
+            again.write(e);
+            return again;
+        }
+        printer
     }
 
     fn write(&mut self, e: Expr) {
@@ -474,6 +492,15 @@ impl<'a> Printer<'a> {
         // A symbol of the same name has the right of way.
         self.vocabulary.lookup(&word).is_none().then(|| (self.notation.trig)(letter, &index))
     }
+}
+
+/// `0,5` or `0{,}5`
+fn has_comma_in_number(text: &str) -> bool {
+    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    text.match_indices(',').any(|(at, _)| {
+        let (before, behind) = (text[..at].trim_end_matches('{'), text[at + 1..].trim_start_matches('}'));
+        is_digit(before.chars().next_back()) && is_digit(behind.chars().next())
+    })
 }
 
 /// Numerator and denominator (`None` for 1) of a positive number, or a decimal if it is a short one.

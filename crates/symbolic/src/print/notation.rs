@@ -39,6 +39,10 @@ pub(super) struct Notation {
     pub exponent: fn(i32) -> String,
     /// A number without sign or fraction bar.
     pub digits: fn(String) -> String,
+    /// A number with a comma for its point.
+    pub comma: fn(String) -> String,
+    /// Between arguments with such numbers.
+    pub semicolon: &'static str,
     pub symbol: fn(&Spelling) -> String,
     /// The sine or cosine (first letter) of numbered angles.
     pub trig: fn(char, &Index) -> String,

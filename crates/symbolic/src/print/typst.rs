@@ -26,6 +26,8 @@ pub(super) const NOTATION: Notation = Notation {
     power: ["", "^"],
     exponent: |n| if n < 0 { format!("({n})") } else { n.to_string() },
     digits: |text| text,
+    comma: |text| if text.contains('.') { format!("\"{}\"", text.replace('.', ",")) } else { text },
+    semicolon: "; ",
     symbol,
     trig,
     times,

@@ -29,6 +29,8 @@ pub(super) const NOTATION: Notation = Notation {
     power: ["", ""],
     exponent,
     digits: |text| text,
+    comma: |text| text.replace('.', ","),
+    semicolon: "; ",
     symbol,
     trig: ascii::trig,
     times,

@@ -189,7 +189,7 @@ fn formulas_come_in_every_notation_with_their_numbers() {
 fn documents_code_and_pictures_are_made() {
     let (_, model) = taken("scara");
     for format in ["html", "typst", "latex", "markdown"] {
-        for language in ["en", "fr"] {
+        for language in ["en", "fr", "de", "es"] {
             let report = told("report", json!({ "format": format, "language": language, "q": model["q"] }));
             assert!(report["text"].as_str().is_some_and(|t| t.len() > 10_000), "{format}");
         }

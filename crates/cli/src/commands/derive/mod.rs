@@ -35,7 +35,7 @@ pub fn run(arguments: &DeriveArguments) -> Result<(), Failure> {
         .filter_map(|(text, is_point, option)| Some((coordinates(text.as_deref()?, option), is_point)))
         .map(|(found, is_point)| Ok((found?, is_point)))
         .collect::<Result<_, Failure>>()?;
-    write!(anstream::stdout(), "{}", printed(&derivation, &images, format))?;
+    write!(anstream::stdout(), "{}", printed(&derivation, &images, format, arguments.language.tongue()))?;
     let certified = match &arguments.certificate {
         Some(file) => {
             certificate::write(file, denavit_certificate::forward(&description, &derivation.model, outputs))
@@ -118,11 +118,15 @@ fn coordinates(text: &str, option: &str) -> Result<[Expr; 3], Failure> {
     Ok([read(x)?, read(y)?, read(z)?])
 }
 
-fn printed(derivation: &Derivation, images: &[([Expr; 3], bool)], format: Format) -> String {
-    let sections =
-        images.iter().map(|(of, is_point)| derivation.image_section(*of, *is_point, Tongue::English));
+fn printed(
+    derivation: &Derivation,
+    images: &[([Expr; 3], bool)],
+    format: Format,
+    language: Tongue,
+) -> String {
+    let sections = images.iter().map(|(of, is_point)| derivation.image_section(*of, *is_point, language));
     match format {
-        Format::Terminal => {
+        Format::Terminal if language == Tongue::English => {
             let shown = sections.map(|section| terminal::section(&section));
             terminal::whole(derivation) + &shown.collect::<String>()
         }
@@ -135,8 +139,8 @@ fn printed(derivation: &Derivation, images: &[([Expr; 3], bool)], format: Format
             let derived = Derived { point: found(true), vector: found(false), ..Derived::of(derivation) };
             format!("{}\n", denavit_wire::text(&derived))
         }
-        Format::Latex | Format::Typst | Format::Html | Format::Markdown => {
-            let mut document = derivation.document(Tongue::English);
+        Format::Terminal | Format::Latex | Format::Typst | Format::Html | Format::Markdown => {
+            let mut document = derivation.document(language);
             document.sections.extend(sections);
             document::written(&document, format)
         }

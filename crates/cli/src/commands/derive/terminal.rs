@@ -7,6 +7,7 @@ use crate::terminal::{Align, FAINT, HEADING, NAME, lowered, matrix, matrix_width
 use denavit::geometry::orientation::OrientationSet;
 use denavit_program::COUNTING_RULE;
 use denavit_report::document::{Block, Math};
+use denavit_report::words::Tongue;
 use denavit_report::{Derivation, Part, Section};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
@@ -75,7 +76,7 @@ pub fn section(section: &Section) -> String {
             _ => {}
         }
     }
-    let text = document::document("", &section.names, &blocks, Format::Terminal);
+    let text = document::document_in(Tongue::English, "", &section.names, &blocks, Format::Terminal);
     if text.starts_with('\n') { text } else { format!("\n{text}") }
 }
 

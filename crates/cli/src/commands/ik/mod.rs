@@ -159,9 +159,10 @@ fn ideal(description: &Description, name: &str, tolerance: f64) -> Result<Ideal,
 /// The derivation, or its formulas; on a terminal those of the position alone behind it, if there are any.
 fn printed(arguments: &IkArguments, e: &Explanation, position: Option<&Explanation>) -> String {
     let format = if arguments.json { Format::Json } else { arguments.format };
-    let title = format!("Inverse kinematics of the {}", e.description.name);
-    let language = Tongue::English;
-    let written = |blocks: &[Block], names: &Vocabulary| document::document(&title, names, blocks, format);
+    let language = arguments.language.tongue();
+    let title = language.words().inverse_title(&e.description.name);
+    let written =
+        |blocks: &[Block], names: &Vocabulary| document::document_in(language, &title, names, blocks, format);
     let position = position.filter(|_| format == Format::Terminal);
     let names = position.map_or_else(|| e.names(), |p| e.names_with(p));
     match (format, arguments.explain, arguments.symbolic) {
@@ -174,14 +175,17 @@ fn printed(arguments: &IkArguments, e: &Explanation, position: Option<&Explanati
             let formulas = position.map_or_else(|| e.summary(language), |p| e.summary_with(p, language));
             written(&formulas, &names)
         }
-        (Format::Terminal, ..) => {
+        (Format::Terminal, ..) if language == Tongue::English => {
             let alone = |p: &Explanation| {
                 format!("\nThe position alone (`--position`):\n\n{}\n", summary::text(p).trim_end())
             };
             summary::text(e) + &position.map(alone).unwrap_or_default()
         }
-        // A format was asked for: the formulas.
-        (_, false, false) => written(&e.summary(language), &names),
+        // A format or a language was asked for: the formulas.
+        (_, false, false) => {
+            let formulas = position.map_or_else(|| e.summary(language), |p| e.summary_with(p, language));
+            written(&formulas, &names)
+        }
     }
 }
 

@@ -39,7 +39,8 @@ pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
             (true, true) => symbolic::What::PositionSingularities,
         };
         let file = arguments.certificate.as_deref();
-        let (text, certified) = symbolic::document(&description, body, what, format, file)?;
+        let (text, certified) =
+            symbolic::document(&description, body, what, format, arguments.language.tongue(), file)?;
         write!(anstream::stdout(), "{text}")?;
         return certified;
     }

@@ -12,7 +12,7 @@ use denavit_report::document::{Block, Line, Math};
 use denavit_report::explain::{
     found_singularities_document, jacobian_document, singularities_document, velocity_vocabulary,
 };
-use denavit_report::words::Tongue;
+use denavit_report::words::{Heading, Tongue};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -38,6 +38,7 @@ pub fn document(
     body: Reference,
     what: What,
     format: Format,
+    language: Tongue,
     file: Option<&Path>,
 ) -> Result<(String, Result<(), Failure>), Failure> {
     let certify = |model: &JacobianModel, minors: &[Minor]| match file {
@@ -52,7 +53,7 @@ pub fn document(
                 Some(view) => JacobianModel::derive(description, view),
                 None => JacobianModel::shortest(description, body),
             };
-            return Ok((matrix(description, &model, format)?, certify(&model, &[])));
+            return Ok((matrix(description, &model, format, language)?, certify(&model, &[])));
         }
     };
     match found {
@@ -71,8 +72,8 @@ pub fn document(
                 };
                 json(description, &found.jacobian, of)
             } else {
-                let blocks = singularities_document(description, &found, Tongue::English);
-                printed(description, &found.jacobian, blocks, format)
+                let blocks = singularities_document(description, &found, language);
+                printed(description, &found.jacobian, blocks, format, language)
             };
             Ok((text, certify(&found.jacobian, &found.minors)))
         }
@@ -97,14 +98,9 @@ pub fn document(
                     Model::without_singularities(robot, &model, &why, found.as_deref().ok(), text)
                 })
             } else {
-                let blocks = found_singularities_document(
-                    description,
-                    &model,
-                    &why,
-                    found.as_deref(),
-                    Tongue::English,
-                );
-                printed(description, &model, blocks, format)
+                let blocks =
+                    found_singularities_document(description, &model, &why, found.as_deref(), language);
+                printed(description, &model, blocks, format, language)
             };
             let ended = if is_everywhere { Ok(()) } else { Err(Failure::GaveUp(why.to_string())) };
             Ok((text, certified.and(ended)))
@@ -113,24 +109,29 @@ pub fn document(
 }
 
 /// The matrix and its algorithm.
-fn matrix(description: &Description, model: &JacobianModel, format: Format) -> Result<String, Failure> {
+fn matrix(
+    description: &Description,
+    model: &JacobianModel,
+    format: Format,
+    language: Tongue,
+) -> Result<String, Failure> {
     if let Err(why) = &model.matrix {
         return Err(Failure::GaveUp(format!("the matrix is not expanded: {why}")));
     }
     Ok(match format {
         Format::Json => json(description, model, |robot, text| Model::of(robot, model, text)),
         _ => {
-            let mut blocks = jacobian_document(description, model, Tongue::English);
-            blocks.extend(algorithm(model));
-            printed(description, model, blocks, format)
+            let mut blocks = jacobian_document(description, model, language);
+            blocks.extend(algorithm(model, language));
+            printed(description, model, blocks, format, language)
         }
     })
 }
 
 /// The program, step by step.
-fn algorithm(model: &JacobianModel) -> Vec<Block> {
+fn algorithm(model: &JacobianModel, language: Tongue) -> Vec<Block> {
     let steps = model.algorithm.steps();
-    let mut blocks = vec![Block::Heading(2, Line::new("Algorithm"))];
+    let mut blocks = vec![Block::Heading(2, Line::new(language.words().heading(Heading::Algorithm)))];
     for step in steps.iter().filter(|s| !(s.is_output && s.value.as_number().is_some())) {
         let math = Math::equation(Expr::symbol(&step.name), step.value);
         blocks.push(Block::Formula { math, number: None, proof: None });
@@ -144,9 +145,15 @@ fn names(description: &Description, model: &JacobianModel) -> Vocabulary {
     steps.fold(velocity_vocabulary(description), |v, name| v.symbol(&name))
 }
 
-fn printed(description: &Description, model: &JacobianModel, blocks: Vec<Block>, format: Format) -> String {
-    let title = format!("Jacobian of the {}", description.name);
-    document::document(&title, &names(description, model), &blocks, format)
+fn printed(
+    description: &Description,
+    model: &JacobianModel,
+    blocks: Vec<Block>,
+    format: Format,
+    language: Tongue,
+) -> String {
+    let title = language.words().jacobian_title(&description.name);
+    document::document_in(language, &title, &names(description, model), &blocks, format)
 }
 
 /// What `of` makes of the robot's name and what prints formulas in the model's names, as JSON.

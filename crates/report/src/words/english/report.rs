@@ -81,6 +81,10 @@ impl Report for English {
         "Table"
     }
 
+    fn figure(&self) -> &'static str {
+        "Figure"
+    }
+
     fn contents(&self) -> &'static str {
         "Contents"
     }

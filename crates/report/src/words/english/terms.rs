@@ -13,6 +13,14 @@ impl Terms for English {
         "en"
     }
 
+    fn babel(&self) -> Option<[&'static str; 2]> {
+        None
+    }
+
+    fn has_decimal_comma(&self) -> bool {
+        false
+    }
+
     fn listed(&self, words: &[String]) -> String {
         match words {
             [] => String::new(),

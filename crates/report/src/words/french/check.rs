@@ -2,8 +2,8 @@
 
 use super::read_with::{dynamic, read_with, spoken};
 use super::{French, counted, printed};
-use crate::words::Check;
 use crate::words::check::{ROUNDING, percent, positive, rows_of};
+use crate::words::{Check, Terms};
 use denavit::description::NotSet;
 use denavit::forward::Reference;
 use denavit_check::inverse::{Cause, Composed, Missing, Undecided};
@@ -22,7 +22,7 @@ impl Check for French {
             About::Equation => "une équation",
             About::Helper => "une grandeur auxiliaire",
             About::Singularity => "une configuration singulière",
-            About::Joint => "les valeurs d'une articulation",
+            About::Joint => "les valeurs d’une articulation",
             About::Table => "le tableau du robot",
             About::Configuration => "une configuration du robot",
             About::TableRow => "une ligne du tableau",
@@ -38,17 +38,17 @@ impl Check for French {
     fn meaning(&self, meaning: &Meaning) -> String {
         let of = |what: &str, whose: &Meaning| say!("{what} {}", genitive(&self.meaning(whose)));
         match meaning {
-            Meaning::Hand => say!("l'organe terminal"),
-            Meaning::Position => say!("la position de l'organe terminal"),
-            Meaning::Row => say!("la matrice de passage d'une ligne quelconque"),
+            Meaning::Hand => say!("l’organe terminal"),
+            Meaning::Position => say!("la position de l’organe terminal"),
+            Meaning::Row => say!("la matrice de passage d’une ligne quelconque"),
             Meaning::Frame { of, seen_from } => say!("{} dans {}", frame(*of), frame(*seen_from)),
             Meaning::AnyFrame { of, seen_from } => {
-                say!("le repère {of} dans le repère {seen_from}, où qu'ils soient")
+                say!("le repère {of} dans le repère {seen_from}, où qu’ils soient")
             }
             Meaning::Rotation(whose) => of("la rotation", whose),
-            Meaning::Axis(axis, whose) => of(&format!("l'axe {axis}"), whose),
-            Meaning::Origin(whose) => of("l'origine", whose),
-            Meaning::Inverse(whose) => of("l'inverse", whose),
+            Meaning::Axis(axis, whose) => of(&format!("l’axe {axis}"), whose),
+            Meaning::Origin(whose) => of("l’origine", whose),
+            Meaning::Inverse(whose) => of("l’inverse", whose),
             Meaning::Transpose(whose) => of("la transposée", whose),
             Meaning::Product(factors) => {
                 factors.iter().map(|f| self.meaning(f)).collect::<Vec<_>>().join(" fois ")
@@ -73,7 +73,7 @@ impl Check for French {
             }
             Meaning::AtRest(what) => say!("{}, toutes les articulations à 0", self.meaning(what)),
             Meaning::Screw { joint, .. } => {
-                say!("le torseur de l'articulation {joint}, toutes les articulations à 0")
+                say!("le torseur de l’articulation {joint}, toutes les articulations à 0")
             }
             Meaning::Column(joint, of) => say!("la colonne {joint} {}", genitive(&matrix_of_velocities(of))),
         }
@@ -90,13 +90,13 @@ impl Check for French {
             Instead::ColumnSigns(i) => format!("la même, les signes de la colonne {i} changés"),
             Instead::Frame { of, seen_from } => format!("le repère {of} dans le repère {seen_from}"),
             Instead::Backwards { of, seen_from } => say!(
-                "le produit, dans l'ordre inverse, des matrices de passage entre les repères {seen_from} et {of}"
+                "le produit, dans l’ordre inverse, des matrices de passage entre les repères {seen_from} et {of}"
             ),
             Instead::Without { of, seen_from, link } => {
                 format!("le repère {of} dans le repère {seen_from}, sans la matrice de passage {link}")
             }
             Instead::ByTable { of, seen_from, line } => {
-                say!("le repère {of} dans le repère {seen_from} d'après le tableau de la ligne {line}")
+                say!("le repère {of} dans le repère {seen_from} d’après le tableau de la ligne {line}")
             }
         }
     }
@@ -113,7 +113,7 @@ impl Check for French {
                 say!("tout calcul fait, les éléments {} diffèrent aussi", places.join(" ; "))
             }
             Remark::AngleUnit => {
-                say!("juste si l'on prend des degrés pour des radians, ou des radians pour des degrés")
+                say!("juste si l’on prend des degrés pour des radians, ou des radians pour des degrés")
             }
             Remark::Millimetres => "juste en millimètres".into(),
             Remark::Metres => "juste en mètres".into(),
@@ -121,7 +121,7 @@ impl Check for French {
             Remark::LastDigit => {
                 say!("faux au dernier chiffre : des angles ou π ont été arrondis en cours de calcul")
             }
-            Remark::OffBy(x) => format!("écart de {}", decimal(*x)),
+            Remark::OffBy(x) => format!("écart de {}", self.written(decimal(*x))),
             Remark::Sampled => "constaté sur des essais, non démontré".into(),
             Remark::Compared(poses) => {
                 format!("par comparaison avec toutes les solutions en {}", counted(*poses, "pose", "poses"))
@@ -142,18 +142,19 @@ impl Check for French {
                 say!("{} ne correspond à aucune solution en {} des poses", which(*value), share(*x))
             }
             Remark::NoNumber { value, share: x } => {
-                say!("{} n'est pas un nombre en {} des poses", which(*value), share(*x))
+                say!("{} n’est pas un nombre en {} des poses", which(*value), share(*x))
             }
             Remark::DivisionByZero { factor, zeros } => division_by_zero(factor, zeros),
             Remark::FailsAt(q) => {
-                say!("faux en q = {q:.4?}, bien que l'articulation y soit déterminée")
+                let q: Vec<String> = q.iter().map(|x| self.written(format!("{x:.4}"))).collect();
+                say!("faux en q = ({}), bien que l’articulation y soit déterminée", q.join(" ; "))
             }
             Remark::Residual(e) => say!("premier membre moins second membre : ") + &e.to_string(),
             Remark::Placed(placement) => say!("le même mécanisme : ") + &placed(placement),
             Remark::OfTrueCoordinates => {
                 printed("pour les vraies coordonnées, non pour celles qui sont imprimées plus haut")
             }
-            Remark::ByOwnTable => printed("d'après le tableau du document, qui est le même mécanisme"),
+            Remark::ByOwnTable => printed("d’après le tableau du document, qui est le même mécanisme"),
         }
     }
 
@@ -166,7 +167,7 @@ impl Check for French {
                 return named.collect::<Vec<_>>().join(", ");
             }
             Sense::LinkAlone => {
-                "lu comme la matrice de passage d'un seul corps, non comme un repère dans la base"
+                "lu comme la matrice de passage d’un seul corps, non comme un repère dans la base"
             }
             Sense::OwnLinks => "lu comme le document les définit : seul leur produit est celui du robot",
             Sense::VelocitiesOfJacobian => {
@@ -195,9 +196,9 @@ impl Check for French {
             Sense::Load { letter, axis, is_minus } => {
                 let along = if *is_minus { "contre" } else { "suivant" };
                 if *letter == 'N' {
-                    return say!("la charge en newtons est lue sur l'organe terminal, {along} l'axe {axis}");
+                    return say!("la charge en newtons est lue sur l’organe terminal, {along} l’axe {axis}");
                 }
-                return say!("{letter} lu comme une charge sur l'organe terminal, {along} l'axe {axis}");
+                return say!("{letter} lu comme une charge sur l’organe terminal, {along} l’axe {axis}");
             }
             Sense::Unit { millimetres: true } => "longueurs sans unité lues en millimètres",
             Sense::Unit { millimetres: false } => "longueurs sans unité lues en mètres",
@@ -210,11 +211,11 @@ impl Check for French {
             Skipped::Unused(name) => say!("définit `{name}`, dont rien de démontré ne se sert"),
             Skipped::SaysNothing => printed("ne dit rien de connu sur le robot"),
             Skipped::Given => {
-                printed("pris pour une configuration donnée : rien de ce qui est vérifié n'en dépend")
+                printed("pris pour une configuration donnée : rien de ce qui est vérifié n’en dépend")
             }
             Skipped::AmongWords => printed("parmi des mots : rien ne montre où la formule commence et finit"),
-            Skipped::OfProgram(name) => say!("rien ne dit ce qu'est `{name}`"),
-            Skipped::TooMany => printed("le document contient plus de formules qu'on n'en vérifie"),
+            Skipped::OfProgram(name) => say!("rien ne dit ce qu’est `{name}`"),
+            Skipped::TooMany => printed("le document contient plus de formules qu’on n’en vérifie"),
         }
     }
 
@@ -224,17 +225,17 @@ impl Check for French {
 
     fn right_where(&self, condition: &Condition) -> String {
         match condition {
-            Condition::OneSign => say!("avec l'un de ses signes"),
+            Condition::OneSign => say!("avec l’un de ses signes"),
             Condition::OwnSign => "avec le signe qui convient à la configuration".into(),
             Condition::Incomplete(missing) => {
                 let gives = missing.map(|m| format!(" : {}", given(m))).unwrap_or_default();
                 say!("pour les solutions données, mais il en manque{gives}")
             }
             Condition::Compared { poses, apart } if *apart <= ROUNDING => {
-                say!("d'après {poses} poses ; ce n'est pas démontré")
+                say!("d’après {poses} poses ; ce n’est pas démontré")
             }
             Condition::Compared { poses, apart } => {
-                say!("à {apart:.0e} près, en {poses} poses : c'est plus qu'un arrondi")
+                say!("à {apart:.0e} près, en {poses} poses : c’est plus qu’un arrondi")
             }
             Condition::Configurations(any) if any.is_empty() => {
                 "pour une partie des configurations seulement".into()
@@ -247,11 +248,11 @@ impl Check for French {
                 "pour une partie des orientations seulement".into()
             }
             Condition::Orientations(all) => format!("pour {}", positive(all, " et ")),
-            Condition::AsUsed => printed("dans la mesure où ce qui l'utilise est juste"),
-            Condition::Locked => printed("tant que d'autres articulations sont immobiles"),
-            Condition::Following => printed("là où une articulation en suit d'autres, comme le texte le dit"),
+            Condition::AsUsed => printed("dans la mesure où ce qui l’utilise est juste"),
+            Condition::Locked => printed("tant que d’autres articulations sont immobiles"),
+            Condition::Following => printed("là où une articulation en suit d’autres, comme le texte le dit"),
             Condition::Placed(placement) => {
-                say!("comme même mécanisme, si l'énoncé laisse ceci libre : ") + &placed(placement)
+                say!("comme même mécanisme, si l’énoncé laisse ceci libre : ") + &placed(placement)
             }
         }
     }
@@ -263,29 +264,29 @@ impl Check for French {
     fn unproved(&self, why: Unproved) -> String {
         printed(match why {
             Unproved::NoRate => {
-                "les vitesses articulaires n'ont pas de valeur ici : les donner auparavant, `dq1 = 0.5 rad/s`"
+                "les vitesses articulaires n’ont pas de valeur ici : les donner auparavant, `dq1 = 0.5 rad/s`"
             }
-            Unproved::NoLength => "une longueur n'a pas de valeur : la donner auparavant, `a1 = 0.5 m`",
+            Unproved::NoLength => "une longueur n’a pas de valeur : la donner auparavant, `a1 = 0.5 m`",
             Unproved::NotFound => "ni égalité démontrée, ni différence trouvée en aucun des essais",
             Unproved::OwnTable => {
-                "juste selon le tableau du document, qui n'a pas été comparé à celui du robot"
+                "juste selon le tableau du document, qui n’a pas été comparé à celui du robot"
             }
             Unproved::NotOfSet => "ce ne sont pas des angles de ce triplet",
             Unproved::NoPose => "rien ne dit pour quelle pose sont ces valeurs des articulations",
             Unproved::Unsupported => {
-                "en désaccord avec le robot tel qu'il est lu ici, et rien dans le document ne confirme cette lecture"
+                "en désaccord avec le robot tel qu’il est lu ici, et rien dans le document ne confirme cette lecture"
             }
             Unproved::OtherConfiguration => {
                 "juste en une autre configuration que le document donne, non en la dernière"
             }
             Unproved::OpenReading => {
-                "rien ne dit comment les masses, les inerties et la pesanteur s'entendent, ce qu'il faudrait pour la réfuter"
+                "rien ne dit comment les masses, les inerties et la pesanteur s’entendent, ce qu’il faudrait pour la réfuter"
             }
             Unproved::AgainstWords(of) => {
-                return say!("elle n'est juste que contre ce que dit le texte : {}", spoken(of));
+                return say!("elle n’est juste que contre ce que dit le texte : {}", spoken(of));
             }
-            Unproved::UnknownColumn => "la colonne n'est pas connue",
-            Unproved::OtherJoints => "il n'a pas les articulations du robot",
+            Unproved::UnknownColumn => "la colonne n’est pas connue",
+            Unproved::OtherJoints => "il n’a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",
             Unproved::Values(why) => return self.undecided(why),
         })
@@ -294,13 +295,13 @@ impl Check for French {
     fn undecided(&self, why: Undecided) -> String {
         printed(match why {
             Undecided::UnknownSymbol(s) => {
-                let what = say!("n'est ni une articulation, ni une longueur, ni un élément de la pose");
+                let what = say!("n’est ni une articulation, ni une longueur, ni un élément de la pose");
                 return format!("`{}` {what}", s.name());
             }
             Undecided::Shape => "les valeurs sont trop nombreuses",
-            Undecided::Circular => "la formule contient l'articulation qu'elle doit donner",
-            Undecided::NeverDefined => "la formule n'est un nombre en aucune pose",
-            Undecided::NoSamples => "il n'y a aucune pose où l'essayer",
+            Undecided::Circular => "la formule contient l’articulation qu’elle doit donner",
+            Undecided::NeverDefined => "la formule n’est un nombre en aucune pose",
+            Undecided::NoSamples => "il n’y a aucune pose où l’essayer",
             Undecided::NoEnumeration => "les solutions de ce bras ne peuvent pas être énumérées",
         })
     }
@@ -309,8 +310,8 @@ impl Check for French {
         match kind {
             SlipKind::Formula(slip) => self.formula_slip(slip),
             SlipKind::Arguments => printed("les arguments de atan2 échangés"),
-            SlipKind::ExchangedWith(r, c) => say!("échangé avec l'élément de la ligne {r}, colonne {c}"),
-            SlipKind::OtherEntry => say!("l'élément d'une autre place"),
+            SlipKind::ExchangedWith(r, c) => say!("échangé avec l’élément de la ligne {r}, colonne {c}"),
+            SlipKind::OtherEntry => say!("l’élément d’une autre place"),
         }
     }
 
@@ -363,9 +364,9 @@ impl Check for French {
             Change::Alpha { row, degrees: 0 } => format!("α{row} = 0 dans le tableau"),
             Change::Alpha { row, degrees } => format!("α{row} = {degrees}° dans le tableau"),
             Change::Offset { row, degrees } => format!("θ{row} avec un décalage de {degrees}° en plus"),
-            Change::CountedBackwards(row) => say!("θ{row} compté dans l'autre sens"),
+            Change::CountedBackwards(row) => say!("θ{row} compté dans l’autre sens"),
             Change::Convention(convention) => format!("le tableau lu dans la convention `{convention}`"),
-            Change::NoTool => say!("l'outil omis"),
+            Change::NoTool => say!("l’outil omis"),
             Change::Vanishing(symbol) => self.is_zero(*symbol),
             Change::Definition { name, slip } => {
                 format!("la définition de {name}{}{}", say!(" : "), self.slip(slip))
@@ -383,11 +384,11 @@ impl Check for French {
             Unreadable::ShortRow(row) => short_row(*row),
             Unreadable::LongProduct => "le produit est trop long pour être calculé".into(),
             Unreadable::NeitherFormulaNorProduct => "ni une formule, ni un produit de matrices".into(),
-            Unreadable::NoKnownProduct => say!("ce n'est pas un produit de matrices connues"),
+            Unreadable::NoKnownProduct => say!("ce n’est pas un produit de matrices connues"),
             Unreadable::NoConfiguration => {
-                say!("un nombre, mais les articulations n'ont pas de valeurs ici")
+                say!("un nombre, mais les articulations n’ont pas de valeurs ici")
             }
-            Unreadable::Alias => say!("l'alias est illisible"),
+            Unreadable::Alias => say!("l’alias est illisible"),
             Unreadable::NothingTold(function) => format!("rien ne dit ce que renvoie `{function}`"),
         }
     }
@@ -420,7 +421,7 @@ impl Check for French {
                 say!("le document a {bytes} octets ; on en lit au plus {most}")
             }
             Noted::NoRobot => say!(
-                "il n'y a pas de robot : aucun tableau de paramètres de Denavit-Hartenberg ne figure dans le document"
+                "il n’y a pas de robot : aucun tableau de paramètres de Denavit-Hartenberg ne figure dans le document"
             ),
             Noted::ReadAs(convention) => {
                 say!("les tableaux sont lus dans la convention {convention} : le texte le dit")
@@ -432,7 +433,7 @@ impl Check for French {
                 "les tableaux sont lus dans la convention {convention} : {right} énoncés du texte sont justes ainsi, {rival} dans une autre"
             ),
             Noted::NotSet(_, NotSet::Unknown { name, known }) => match &known[..] {
-                [] => say!("`{name}` reçoit une valeur : il n'y a aucun paramètre"),
+                [] => say!("`{name}` reçoit une valeur : il n’y a aucun paramètre"),
                 known => {
                     say!("`{name}` reçoit une valeur : paramètre inconnu, il y a {}", known.join(", "))
                 }
@@ -440,7 +441,7 @@ impl Check for French {
             Noted::NotSet(name, NotSet::Value(_)) => say!("`{name}` reçoit une valeur illisible"),
             Noted::Reading(sense) => self.sense(sense),
             Noted::UnknownRobot(name) => format!("aucun robot `{name}` dans le catalogue"),
-            Noted::NoSuchTable => say!("ce tableau n'existe pas"),
+            Noted::NoSuchTable => say!("ce tableau n’existe pas"),
             Noted::UnknownConvention(name) => format!("convention inconnue `{name}`"),
             Noted::NoTool => "un outil se donne par trois longueurs".into(),
             Noted::PassedOver(why) => say!("laissé de côté : ") + &self.unreadable(why),
@@ -448,7 +449,7 @@ impl Check for French {
             Noted::Together(composed) => together(composed),
             Noted::ReadWith(all) => {
                 let all: Vec<String> = all.iter().map(read_with).collect();
-                say!("lu avec {} ; ainsi l'essentiel est juste, et le texte ne le dit pas", all.join(" ; "))
+                say!("lu avec {} ; ainsi l’essentiel est juste, et le texte ne le dit pas", all.join(" ; "))
             }
         }
     }
@@ -483,7 +484,7 @@ impl Check for French {
 fn genitive(noun: &str) -> String {
     match noun.strip_prefix("le ") {
         Some(rest) => format!("du {rest}"),
-        None if noun.starts_with("une ") => format!("d'{noun}"),
+        None if noun.starts_with("une ") => format!("d’{noun}"),
         None => format!("de {noun}"),
     }
 }
@@ -492,22 +493,22 @@ fn frame(which: Reference) -> String {
     match which {
         Reference::Base => "la base".into(),
         Reference::Frame(k) => format!("le repère {k}"),
-        Reference::Tool => "l'organe terminal".into(),
+        Reference::Tool => "l’organe terminal".into(),
     }
 }
 
 fn matrix_of_velocities(jacobian: &Jacobian) -> String {
     let body = match jacobian.body {
-        Reference::Tool => "l'organe terminal",
-        Reference::Base | Reference::Frame(_) => "l'origine du dernier repère",
+        Reference::Tool => "l’organe terminal",
+        Reference::Base | Reference::Frame(_) => "l’origine du dernier repère",
     };
     let axes = match jacobian.axes {
         Reference::Base | Reference::Frame(0) => String::new(),
         Reference::Frame(k) => format!(" suivant les axes du repère {k}"),
         Reference::Tool => " suivant ses propres axes".into(),
     };
-    let at = jacobian.at.map_or(String::new(), |k| format!(" à l'origine du repère {k}"));
-    let first = if jacobian.is_angular_first { ", lignes de la vitesse angulaire d'abord" } else { "" };
+    let at = jacobian.at.map_or(String::new(), |k| format!(" à l’origine du repère {k}"));
+    let first = if jacobian.is_angular_first { ", lignes de la vitesse angulaire d’abord" } else { "" };
     let part = rows_of(jacobian).map_or(String::new(), |rows| format!(", lignes {rows}"));
     say!("la jacobienne de {body}{at}{axes}{first}{part}")
 }
@@ -532,11 +533,11 @@ fn given(missing: Missing) -> String {
 
 fn sign_lost(by: Cause) -> &'static str {
     match by {
-        Cause::Arctan => "l'arc tangente d'un quotient perd le quadrant ; atan2 le conserve",
-        Cause::Arcsin => "un arc sinus ne donne qu'un angle sur deux",
-        Cause::Arccos => "un arc cosinus ne donne qu'un angle sur deux",
+        Cause::Arctan => "l’arc tangente d’un quotient perd le quadrant ; atan2 le conserve",
+        Cause::Arcsin => "un arc sinus ne donne qu’un angle sur deux",
+        Cause::Arccos => "un arc cosinus ne donne qu’un angle sur deux",
         Cause::Atan2 => "les deux arguments de atan2 ont ailleurs le mauvais signe",
-        Cause::Root => "le signe de la racine n'est pas celui de la configuration",
+        Cause::Root => "le signe de la racine n’est pas celui de la configuration",
         Cause::Other => "le signe est perdu",
     }
 }
@@ -557,11 +558,11 @@ fn together(c: &Composed) -> String {
         0 => String::new(),
         n => {
             let all = counted(n, "configuration", "configurations");
-            format!(", et {all} qui {} pas la pose", if n < 2 { "n'atteint" } else { "n'atteignent" })
+            format!(", et {all} qui {} pas la pose", if n < 2 { "n’atteint" } else { "n’atteignent" })
         }
     };
     say!(
-        "l'une après l'autre, les formules donnent {} des {} solutions en {} poses{spurious}",
+        "l’une après l’autre, les formules donnent {} des {} solutions en {} poses{spurious}",
         c.yielded,
         c.existing,
         c.poses
@@ -580,9 +581,9 @@ fn placed(placement: &Placement) -> String {
         placement
             .zeros
             .iter()
-            .map(|(k, by)| format!("l'articulation {k} vaut {by} de plus que celle du robot")),
+            .map(|(k, by)| format!("l’articulation {k} vaut {by} de plus que celle du robot")),
     );
-    said.extend(placement.reversed.iter().map(|k| format!("l'articulation {k} compte dans l'autre sens")));
+    said.extend(placement.reversed.iter().map(|k| format!("l’articulation {k} compte dans l’autre sens")));
     if placement.base {
         said.push("le repère 0 est ailleurs".into());
     }

@@ -15,14 +15,14 @@ impl Dynamics for French {
     fn link_parameters(&self, has_other_frames: bool) -> String {
         let frames = match has_other_frames {
             true => {
-                "du repère dont l'axe z est porté par l'axe du corps (ceux du tableau dans la convention de Khalil, et non \
+                "du repère dont l’axe z est porté par l’axe du corps (ceux du tableau dans la convention de Khalil, et non \
                  ceux de celui-ci)"
             }
             false => "de son repère",
         };
         say!(
-            "Le corps j a pour inertie XXj … ZZj (un tenseur : XYj est l'opposé du produit d'inertie), pour premiers moments MXj, MYj, MZj et pour \
-             masse Mj, le tout par rapport à l'origine {frames}. qd et qdd sont les vitesses et les accélérations \
+            "Le corps j a pour inertie XXj … ZZj (un tenseur : XYj est l’opposé du produit d’inertie), pour premiers moments MXj, MYj, MZj et pour \
+             masse Mj, le tout par rapport à l’origine {frames}. qd et qdd sont les vitesses et les accélérations \
              articulaires."
         )
     }
@@ -38,7 +38,9 @@ impl Dynamics for French {
     }
 
     fn gravity_is(&self, components: [Math; 3]) -> Line {
-        Line::new(say!("L'accélération de la pesanteur dans la base est (")).list(components).text(").")
+        Line::new(say!("L’accélération de la pesanteur dans la base est ("))
+            .numbers(components, self.between())
+            .text(").")
     }
 
     fn base_title(&self) -> String {
@@ -49,12 +51,12 @@ impl Dynamics for French {
         let of = counted(all, "paramètre", "paramètres");
         let rest = match minimality {
             Minimality::Proved => {
-                "Il n'en faut pas moins : les colonnes correspondantes des couples sont démontrées indépendantes.".into()
+                "Il n’en faut pas moins : les colonnes correspondantes des couples sont démontrées indépendantes.".into()
             }
             Minimality::AtLeast(rank) => {
-                format!("Il en faut peut-être moins : {rank} d'entre eux sont démontrés indépendants.")
+                format!("Il en faut peut-être moins : {rank} d’entre eux sont démontrés indépendants.")
             }
-            Minimality::Unknown => "On n'a pas décidé si moins suffiraient.".to_string(),
+            Minimality::Unknown => "On n’a pas décidé si moins suffiraient.".to_string(),
         };
         let have = if base < 2 { "agit" } else { "agissent" };
         say!("Des {of} des corps, regroupés, {base} {have} sur les couples. {rest}")
@@ -67,7 +69,7 @@ impl Dynamics for French {
     }
 
     fn dropped(&self, all: Vec<Math>) -> Line {
-        Line::new(say!("Comme demandé, d'autres sont à la place de ")).list(all).text(".")
+        Line::new(say!("Comme demandé, d’autres sont à la place de ")).list(all).text(".")
     }
 
     fn base_alone(&self, all: Vec<Math>) -> Line {
@@ -92,7 +94,7 @@ impl Dynamics for French {
             Ground::Numbers(states, off) => {
                 format!("non démontré : égal aux équations de Lagrange à {off:.0e} près en {states} états")
             }
-            Ground::Failed => "différent des équations de Lagrange : c'est un défaut du programme".into(),
+            Ground::Failed => "différent des équations de Lagrange : c’est un défaut du programme".into(),
         };
         say!("{} ; {ground}.", self.count(count))
     }
@@ -102,11 +104,11 @@ impl Dynamics for French {
     }
 
     fn divides_by(&self, all: Vec<Math>) -> Line {
-        Line::new("Ce programme divise par ").list(all).text(", et vaut là où cela n'est pas nul.")
+        Line::new("Ce programme divise par ").list(all).text(", et vaut là où cela n’est pas nul.")
     }
 
     fn inertia_title(&self) -> String {
-        "Matrice d'inertie".into()
+        "Matrice d’inertie".into()
     }
 
     fn velocity_torques_title(&self) -> String {
@@ -130,8 +132,8 @@ impl Dynamics for French {
 
     fn grouping(&self) -> String {
         say!(
-            "Une masse sur l'axe d'une liaison rotoïde est fixe dans les deux corps que la liaison réunit : les couples sont les mêmes, \
-             que l'on la compte avec l'un ou avec l'autre. De l'extrémité vers la base, chaque corps cède au précédent tout ce qui peut y \
+            "Une masse sur l’axe d’une liaison rotoïde est fixe dans les deux corps que la liaison réunit : les couples sont les mêmes, \
+             que l’on la compte avec l’un ou avec l’autre. De l’extrémité vers la base, chaque corps cède au précédent tout ce qui peut y \
              être compté :"
         )
     }
@@ -145,14 +147,14 @@ impl Dynamics for French {
         match gives {
             Gives::OnAxis => say!(
                 "le corps {k} tourne : il cède {to} M{k}, MZ{k} et YY{k} (comme second moment le long de son axe), et garde \
-                 XX{k} − YY{k}, XY{k}, XZ{k}, YZ{k}, ZZ{k}, MX{k}, MY{k}, avec ce qu'il a reçu"
+                 XX{k} − YY{k}, XY{k}, XZ{k}, YZ{k}, ZZ{k}, MX{k}, MY{k}, avec ce qu’il a reçu"
             ),
             Gives::Nothing => say!(
-                "le corps {k} tourne, avec une masse par direction : il ne cède rien, et garde ce qu'il a reçu"
+                "le corps {k} tourne, avec une masse par direction : il ne cède rien, et garde ce qu’il a reçu"
             ),
             Gives::Inertia => say!(
                 "le corps {k} glisse : son inertie, qui tourne avec le précédent, est comptée avec lui ({taker}) ; il garde M{k}, MX{k}, \
-                 MY{k}, MZ{k}, avec ce qu'il a reçu"
+                 MY{k}, MZ{k}, avec ce qu’il a reçu"
             ),
             Gives::Plan => say!(
                 "le corps {k} glisse le long de la direction de toutes les rotations qui le précèdent : {taker} prend tout, sauf sa masse \
@@ -162,16 +164,16 @@ impl Dynamics for French {
     }
 
     fn outward_title(&self) -> String {
-        "De la base vers l'outil : le mouvement des corps".into()
+        "De la base vers l’outil : le mouvement des corps".into()
     }
 
     fn outward(&self) -> String {
         say!(
-            "Dans le repère de chaque corps : w est sa vitesse angulaire, wd la dérivée de celle-ci, a l'accélération de l'origine du \
+            "Dans le repère de chaque corps : w est sa vitesse angulaire, wd la dérivée de celle-ci, a l’accélération de l’origine du \
              repère moins celle de la pesanteur. R étant la rotation vers ce repère depuis celui du corps précédent, dont les valeurs ont \
-             l'indice p, et r la position de son origine : w = R wp, wd = R wdp, a = R(ap + Up r) ; une liaison rotoïde ajoute z qd à \
-             w, et z qdd + w × z qd (avec w d'avant) à wd ; une liaison prismatique ajoute z qdd + 2 w × z qd à a. \
-             U = [wd]× + [w]×[w]× : un point du corps en r a l'accélération a + U r. Ce qui est nul, ou égal à une autre valeur, n'a pas de nom."
+             l’indice p, et r la position de son origine : w = R wp, wd = R wdp, a = R(ap + Up r) ; une liaison rotoïde ajoute z qd à \
+             w, et z qdd + w × z qd (avec w d’avant) à wd ; une liaison prismatique ajoute z qdd + 2 w × z qd à a. \
+             U = [wd]× + [w]×[w]× : un point du corps en r a l’accélération a + U r. Ce qui est nul, ou égal à une autre valeur, n’a pas de nom."
         )
     }
 
@@ -181,8 +183,8 @@ impl Dynamics for French {
 
     fn link_of_tree(&self, link: usize, joint: &str, parent: Option<usize>) -> String {
         match parent {
-            Some(parent) => say!("Corps {link} : après l'articulation {joint}, sur le corps {parent}."),
-            None => say!("Corps {link} : après l'articulation {joint}, sur la racine."),
+            Some(parent) => say!("Corps {link} : après l’articulation {joint}, sur le corps {parent}."),
+            None => say!("Corps {link} : après l’articulation {joint}, sur la racine."),
         }
     }
 
@@ -200,22 +202,22 @@ impl Dynamics for French {
             ),
             Ground::Failed => {
                 say!(
-                    "Différents des dérivées du produit des matrices de passage : c'est un défaut du programme."
+                    "Différents des dérivées du produit des matrices de passage : c’est un défaut du programme."
                 )
             }
         }
     }
 
     fn inward_title(&self) -> String {
-        "De l'outil vers la base : ce qui meut les corps".into()
+        "De l’outil vers la base : ce qui meut les corps".into()
     }
 
     fn inward(&self) -> String {
         say!(
-            "De l'extrémité vers la base, par rapport à l'origine de chaque repère : f est la force et n le moment qui meuvent le corps et \
+            "De l’extrémité vers la base, par rapport à l’origine de chaque repère : f est la force et n le moment qui meuvent le corps et \
              tous ceux qui le suivent. Pour le corps seul, en paramètres de base, ce sont M a + U MS et J wd + w × J w + MS × a ; on \
-             ajoute ce qui meut les corps suivants, ramené dans ce repère. Le couple d'une liaison rotoïde est le moment autour de son \
-             axe z, l'effort d'une liaison prismatique la force le long de celui-ci."
+             ajoute ce qui meut les corps suivants, ramené dans ce repère. Le couple d’une liaison rotoïde est le moment autour de son \
+             axe z, l’effort d’une liaison prismatique la force le long de celui-ci."
         )
     }
 
@@ -225,9 +227,9 @@ impl Dynamics for French {
 
     fn short(&self) -> String {
         say!(
-            "La même récurrence a bien des formes : axes parallèles pris ensemble, mouvement et efforts d'un corps dans tel ou tel repère, \
+            "La même récurrence a bien des formes : axes parallèles pris ensemble, mouvement et efforts d’un corps dans tel ou tel repère, \
              masse sur les axes comptée ici ou là, une longueur pour unité. La plus courte que la recherche ait trouvée, à la place de celle \
-             d'avant (`--symbolic` l'écrit) :"
+             d’avant (`--symbolic` l’écrit) :"
         )
     }
 }

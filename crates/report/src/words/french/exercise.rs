@@ -2,7 +2,7 @@
 
 use super::French;
 use crate::tree::{Line, Math};
-use crate::words::{Exercise, ExerciseKind};
+use crate::words::{Exercise, ExerciseKind, Terms};
 use denavit::description::Convention;
 
 /// Le sujet d'un exercice, avec la préposition qui suit.
@@ -23,11 +23,11 @@ fn subject(kind: ExerciseKind) -> &'static str {
 
 impl Exercise for French {
     fn exercise_title(&self, kind: ExerciseKind, robot: &str) -> String {
-        format!("Exercice : {} du robot {robot}", subject(kind))
+        format!("Exercice\u{a0}: {} du robot {robot}", subject(kind))
     }
 
     fn solution_title(&self, kind: ExerciseKind, robot: &str) -> String {
-        format!("Corrigé : {} du robot {robot}", subject(kind))
+        format!("Corrigé\u{a0}: {} du robot {robot}", subject(kind))
     }
 
     fn seed(&self, seed: u64) -> String {
@@ -55,7 +55,7 @@ impl Exercise for French {
     }
 
     fn pose_title(&self) -> String {
-        "La situation de l'outil".into()
+        "La situation de l’outil".into()
     }
 
     fn numbers_title(&self) -> String {
@@ -67,17 +67,17 @@ impl Exercise for French {
     }
 
     fn ask_pose(&self) -> String {
-        "Donner la situation de l'outil dans la base sous forme de formule simplifiée.".into()
+        "Donner la situation de l’outil dans la base sous forme de formule simplifiée.".into()
     }
 
     fn ask_numbers(&self, count: usize) -> String {
         let where_ = if count == 1 { "dans la configuration" } else { "dans chacune des configurations" };
-        format!("Donner la situation T de l'outil en nombres {where_} ci-dessous, à quatre décimales.")
+        format!("Donner la situation T de l’outil en nombres {where_} ci-dessous, à quatre décimales.")
     }
 
     fn ask_table(&self, convention: Convention) -> String {
         format!(
-            "Donner la table de Denavit–Hartenberg du bras dans la convention « {convention} », les longueurs par leurs noms."
+            "Donner la table de Denavit–Hartenberg du bras dans la convention «\u{a0}{convention}\u{a0}», les longueurs par leurs noms."
         )
     }
 
@@ -88,11 +88,11 @@ impl Exercise for French {
     fn axes_lie(&self, configuration: Line) -> Line {
         let mut line = Line::new("Le bras est mis à ");
         line.0.extend(configuration.0);
-        line.text(". Les axes de ses articulations sont alors, dans la base :")
+        line.text(". Les axes de ses articulations sont alors, dans la base\u{a0}:")
     }
 
     fn axes_caption(&self) -> String {
-        "Un point de chaque axe et sa direction ; R pour une rotation, P pour une translation.".into()
+        "Un point de chaque axe et sa direction\u{a0}; R pour une rotation, P pour une translation.".into()
     }
 
     fn point(&self) -> String {
@@ -104,7 +104,7 @@ impl Exercise for French {
     }
 
     fn tool_there(&self) -> String {
-        "et la situation de l'outil est".into()
+        "et la situation de l’outil est".into()
     }
 
     fn configurations_title(&self) -> String {
@@ -114,7 +114,7 @@ impl Exercise for French {
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "la situation" } else { "chacune des situations" };
         format!(
-            "Donner toutes les configurations des articulations pour {pose} T de l'outil ci-dessous : les équations, et les \
+            "Donner toutes les configurations des articulations pour {pose} T de l’outil ci-dessous\u{a0}: les équations, et les \
              valeurs."
         )
     }
@@ -124,7 +124,7 @@ impl Exercise for French {
     }
 
     fn numbered_solution(&self, number: usize) -> String {
-        format!("Solution {number} : ")
+        format!("Solution {number}\u{a0}: ")
     }
 
     fn jacobian_formula(&self) -> String {
@@ -140,11 +140,11 @@ impl Exercise for French {
     }
 
     fn velocity_title(&self) -> String {
-        "La vitesse de l'outil".into()
+        "La vitesse de l’outil".into()
     }
 
     fn ask_velocity(&self) -> String {
-        "Donner la vitesse de l'origine de l'outil dans la première configuration, pour les vitesses des articulations \
+        "Donner la vitesse de l’origine de l’outil dans la première configuration, pour les vitesses des articulations \
          ci-dessous."
             .into()
     }
@@ -167,7 +167,7 @@ impl Exercise for French {
 
     fn largest_of(&self, title: &str) -> String {
         format!(
-            "{title} : le nombre N de configurations, et celle dont la première articulation est la plus grande (à égalité la deuxième, et ainsi de suite)"
+            "{title}\u{a0}: le nombre N de configurations, et celle dont la première articulation est la plus grande (à égalité la deuxième, et ainsi de suite)"
         )
     }
 
@@ -182,7 +182,7 @@ impl Exercise for French {
     fn ask_positions(&self, count: usize) -> String {
         let position = if count == 1 { "la position" } else { "chacune des positions" };
         format!(
-            "Donner toutes les configurations des articulations pour {position} de l'outil ci-dessous : les équations, et les valeurs."
+            "Donner toutes les configurations des articulations pour {position} de l’outil ci-dessous\u{a0}: les équations, et les valeurs."
         )
     }
 
@@ -195,7 +195,7 @@ impl Exercise for French {
     }
 
     fn position_given(&self) -> String {
-        "L'outil doit atteindre le point ".into()
+        "L’outil doit atteindre le point ".into()
     }
 
     fn torque_formulas_title(&self) -> String {
@@ -207,9 +207,9 @@ impl Exercise for French {
     }
 
     fn ask_statics(&self, force: Vec<Math>) -> Line {
-        Line::new("L'outil exerce sur son environnement une force de composantes ")
+        Line::new("L’outil exerce sur son environnement une force de composantes ")
             .list(force)
-            .text(" suivant les axes de la base. Donner les couples articulaires (les forces des translations) nécessaires à l'équilibre, sous forme de formules ; le poids du bras est négligé.")
+            .text(" suivant les axes de la base. Donner les couples articulaires (les forces des translations) nécessaires à l’équilibre, sous forme de formules\u{a0}; le poids du bras est négligé.")
     }
 
     fn ask_torque_numbers(&self, count: usize) -> String {
@@ -222,15 +222,17 @@ impl Exercise for French {
     }
 
     fn statics_step(&self) -> String {
-        "Les lignes linéaires de la jacobienne de l'outil, suivant les axes de la base ; leurs colonnes, multipliées par la force, donnent les couples.".into()
+        "Les lignes linéaires de la jacobienne de l’outil, suivant les axes de la base\u{a0}; leurs colonnes, multipliées par la force, donnent les couples.".into()
     }
 
     fn point_masses(&self) -> String {
-        "Chaque corps a sa masse concentrée à son extrémité, l'origine de son repère ; il n'y a pas de frottement.".into()
+        "Chaque corps a sa masse concentrée à son extrémité, l’origine de son repère\u{a0}; il n’y a pas de frottement.".into()
     }
 
     fn gravity_in_base(&self, components: [Math; 3]) -> Line {
-        Line::new("L'accélération de la pesanteur dans la base est (").list(components).text(").")
+        Line::new("L’accélération de la pesanteur dans la base est (")
+            .numbers(components, self.between())
+            .text(").")
     }
 
     fn motion_parts_title(&self) -> String {
@@ -238,7 +240,7 @@ impl Exercise for French {
     }
 
     fn ask_motion_parts(&self) -> String {
-        "Donner la matrice d'inertie M, les couples V des forces centrifuges et de Coriolis et les couples G de la pesanteur.".into()
+        "Donner la matrice d’inertie M, les couples V des forces centrifuges et de Coriolis et les couples G de la pesanteur.".into()
     }
 
     fn ask_motion(&self) -> String {
@@ -246,15 +248,15 @@ impl Exercise for French {
     }
 
     fn inertia_step(&self) -> String {
-        "La matrice d'inertie, par l'énergie cinétique :".into()
+        "La matrice d’inertie, par l’énergie cinétique\u{a0}:".into()
     }
 
     fn velocity_torques_step(&self) -> String {
-        "Les couples des forces centrifuges et de Coriolis, par ses dérivées :".into()
+        "Les couples des forces centrifuges et de Coriolis, par ses dérivées\u{a0}:".into()
     }
 
     fn gravity_step(&self) -> String {
-        "Les couples de la pesanteur, par l'énergie potentielle :".into()
+        "Les couples de la pesanteur, par l’énergie potentielle\u{a0}:".into()
     }
 
     fn motion_step(&self) -> String {
@@ -270,13 +272,13 @@ impl Exercise for French {
     }
 
     fn motion_begins(&self, configuration: Line) -> Line {
-        let mut line = Line::new("Il commence à l'arrêt à ");
+        let mut line = Line::new("Il commence à l’arrêt à ");
         line.0.extend(configuration.0);
         line.text(".")
     }
 
     fn motion_ends(&self, configuration: Line) -> Line {
-        let mut line = Line::new("Il finit à l'arrêt à ");
+        let mut line = Line::new("Il finit à l’arrêt à ");
         line.0.extend(configuration.0);
         line.text(".")
     }
@@ -286,13 +288,13 @@ impl Exercise for French {
     }
 
     fn ask_cubic(&self, seconds: Math) -> Line {
-        Line::new("Donner chaque variable articulaire comme polynôme de degré trois du temps t (en secondes ; angles en degrés, translations en mètres) pour un mouvement qui dure ")
+        Line::new("Donner chaque variable articulaire comme polynôme de degré trois du temps t (en secondes\u{a0}; angles en degrés, translations en mètres) pour un mouvement qui dure ")
             .math(seconds)
             .text(".")
     }
 
     fn cubic_step(&self, formula: Math) -> Line {
-        Line::new("À l'arrêt aux deux bouts, une articulation qui avance de D dans le temps f suit ")
+        Line::new("À l’arrêt aux deux bouts, une articulation qui avance de D dans le temps f suit ")
             .math(formula)
             .text(".")
     }
@@ -302,7 +304,9 @@ impl Exercise for French {
     }
 
     fn ask_peaks(&self, names: Vec<Math>) -> Line {
-        Line::new("Donner la plus grande vitesse de chaque articulation en chemin : ").list(names).text(".")
+        Line::new("Donner la plus grande vitesse de chaque articulation en chemin\u{a0}: ")
+            .list(names)
+            .text(".")
     }
 
     fn peaks_step(&self, formula: Math) -> Line {
@@ -322,28 +326,28 @@ impl Exercise for French {
     }
 
     fn joint_limits(&self, joint: Math, speed: &str, acceleration: &str) -> Line {
-        Line::new("L'articulation ")
+        Line::new("L’articulation ")
             .math(joint)
-            .text(format!(" a au plus la vitesse {speed} et l'accélération {acceleration}."))
+            .text(format!(" a au plus la vitesse {speed} et l’accélération {acceleration}."))
     }
 
     fn trapezoid_step(&self, joint: Math, formula: Math) -> Line {
-        Line::new("L'articulation ")
+        Line::new("L’articulation ")
             .math(joint)
-            .text(" atteint sa vitesse maximale v : il lui faut ")
+            .text(" atteint sa vitesse maximale v\u{a0}: il lui faut ")
             .math(formula)
             .text(".")
     }
 
     fn triangle_step(&self, joint: Math, formula: Math) -> Line {
-        Line::new("L'articulation ")
+        Line::new("L’articulation ")
             .math(joint)
-            .text(" n'atteint pas sa vitesse maximale : il lui faut ")
+            .text(" n’atteint pas sa vitesse maximale\u{a0}: il lui faut ")
             .math(formula)
             .text(".")
     }
 
     fn slowest_step(&self, whole: Math) -> Line {
-        Line::new("L'articulation la plus lente donne le temps de toutes : ").math(whole)
+        Line::new("L’articulation la plus lente donne le temps de toutes\u{a0}: ").math(whole)
     }
 }

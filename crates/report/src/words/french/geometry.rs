@@ -1,8 +1,8 @@
 //! Axes and tables.
 
 use super::{French, printed};
-use crate::words::Geometry;
 use crate::words::geometry::{Given, Whole};
+use crate::words::{Geometry, Terms};
 use denavit::description::{Agreement, Chain, Mechanism, Moved, Part};
 use denavit::idealise::Measured;
 use denavit::structure::{NearlySpecial, Relation, Special};
@@ -31,7 +31,8 @@ impl Geometry for French {
             Special::Perpendicular => "orthogonaux",
             Special::Meeting => "concourants",
         };
-        say!("les axes {first} et {second} sont presque {what} : à {:.3e} {unit} près", near.by)
+        let by = self.written(format!("{:.3e}", near.by));
+        say!("les axes {first} et {second} sont presque {what} : à {by} {unit} près")
     }
 
     fn measured(&self, what: Measured) -> String {
@@ -114,9 +115,9 @@ impl Geometry for French {
     }
 
     fn read_apart(&self, metres: f64) -> String {
-        let micrometres = metres * 1e6;
+        let micrometres = self.written(format!("{:.3}", metres * 1e6));
         printed(&format!(
-            "ainsi lus, les corps se trouvent jusqu’à {micrometres:.3} µm d’où les mettent les décimales telles qu’elles sont écrites, dans les configurations essayées"
+            "ainsi lus, les corps se trouvent jusqu’à {micrometres} µm d’où les mettent les décimales telles qu’elles sont écrites, dans les configurations essayées"
         ))
     }
 }

@@ -162,7 +162,9 @@ impl Inverse for French {
         set(match coefficients {
             Coefficients::Below => line.text(" avec"),
             Coefficients::Here([]) => line.text(" ; d'où"),
-            Coefficients::Here(all) => line.text(" avec ").list(all.iter().cloned()).text(" ; d'où"),
+            Coefficients::Here(all) => {
+                line.text(" avec ").numbers(all.iter().cloned(), self.between()).text(" ; d'où")
+            }
         })
     }
 

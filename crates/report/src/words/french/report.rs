@@ -77,6 +77,10 @@ impl Report for French {
         "Tableau"
     }
 
+    fn figure(&self) -> &'static str {
+        "Figure"
+    }
+
     fn contents(&self) -> &'static str {
         "Sommaire"
     }
@@ -104,6 +108,7 @@ impl Report for French {
             Plane::Plane { .. } => format!("plan {u}–{v}, dans lequel le bras se déplace"),
             Plane::Projection { .. } => format!("projection sur le plan {u}–{v}"),
         };
+        let [a, b, c, d] = [a, b, c, d].map(|x| self.written(x));
         say!(
             "Coupe de l'espace de travail, {what} : {u} de {a} à {b} m, {v} de {c} à {d} m ; couleurs selon la \
              manipulabilité, de maximum 1"
@@ -283,7 +288,7 @@ impl Report for French {
             true => ("Le point", "il tourne et se déplace (quatrième coordonnée 1)"),
             false => ("Le vecteur", "il tourne sans se déplacer (quatrième coordonnée 0)"),
         };
-        let line = Line::new(format!("{what} (")).list(of);
+        let line = Line::new(format!("{what} (")).numbers(of, self.between());
         line.text(say!(") du repère {to} a dans le repère {from} ces coordonnées : {how}."))
     }
 
@@ -318,7 +323,7 @@ impl Report for French {
     fn counting_rule(&self) -> String {
         say!(
             "On compte chaque multiplication et chaque addition dont le résultat dépend d'une variable ; les signes ne \
-             comptent pas ; le sinus et le cosinus d'un même angle forment un couple ; une constante ajoutée à une \
+             comptent pas ; le sinus et le cosinus d'un même angle forment une paire ; une constante ajoutée à une \
              variable (son décalage) et ce qui ne dépend que des paramètres sont comptés à part."
         )
     }
@@ -468,7 +473,7 @@ impl Report for French {
     }
 
     fn more(&self, number: usize) -> String {
-        format!("Et {number} autres ; `denavit check` les donne.")
+        say!("Et {number} autres ; `denavit check` les donne.")
     }
 
     fn printed(&self, line: usize, formula: &str) -> String {

@@ -13,6 +13,18 @@ impl Terms for French {
         "fr"
     }
 
+    fn babel(&self) -> Option<[&'static str; 2]> {
+        Some(["french", "french"])
+    }
+
+    fn has_decimal_comma(&self) -> bool {
+        true
+    }
+
+    fn between(&self) -> &'static str {
+        "\u{a0}; "
+    }
+
     fn listed(&self, words: &[String]) -> String {
         match words {
             [] => String::new(),
@@ -40,7 +52,7 @@ impl Terms for French {
     fn spoken_mark(&self, mark: &str) -> &'static str {
         match mark {
             "✓" => "démontré",
-            "≈" => "vérifié pour des poses d'essai",
+            "≈" => "vérifié pour des poses d’essai",
             _ => "faux",
         }
     }
@@ -83,7 +95,7 @@ impl Terms for French {
         let mut parts = vec![
             counted(count.multiplications, "multiplication", "multiplications"),
             counted(count.additions, "addition", "additions"),
-            counted(count.sincos, "couple sinus-cosinus", "couples sinus-cosinus"),
+            counted(count.sincos, "paire sinus-cosinus", "paires sinus-cosinus"),
         ];
         for (n, one, many) in [
             (count.divisions, "division", "divisions"),

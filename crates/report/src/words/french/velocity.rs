@@ -19,7 +19,7 @@ impl Velocity for French {
             "D'abord les lignes de la vitesse linéaire, celle du point {body} situé à l'origine {at}"
         ));
         if let Some(offset) = offset {
-            line = line.text(" décalée de (").list(offset).text(")");
+            line = line.text(" décalée de (").numbers(offset, self.between()).text(")");
         }
         line.text(format!(", puis celles de la vitesse angulaire, suivant les axes {axes}."))
     }
@@ -118,7 +118,7 @@ impl Velocity for French {
     }
 
     fn zeros(&self, all: Vec<Math>) -> Line {
-        let mut line = Line::new("pour ");
+        let mut line = Line::new("où ");
         for (k, math) in all.into_iter().enumerate() {
             line = line.text(if k > 0 { " ou " } else { "" }).math(math);
         }

@@ -466,7 +466,7 @@ export interface Requests {
   /** A path of an arm that falls from rest. */
   fall: [{ q: number[]; seconds: number }, Path];
   check: [{ text: string; name: string }, Checked];
-  report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
+  report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr" | "de" | "es"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
   code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda" | "ikfast"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
   tree: [TreeWanted, TreeTaken];
   figure: [{ q: number[]; scheme: boolean; azimuth?: number; elevation?: number }, { svg: string }];

@@ -19,7 +19,7 @@ const FORMATS: { key: Format; title: string; ending: string; type: string }[] = 
 ];
 
 const format = signal<Format>("html");
-const language = signal<"en" | "fr">("en");
+const language = signal<Input<"report">["language"]>("en");
 const writing = new Task<Output<"report">>();
 
 async function write(): Promise<void> {
@@ -57,6 +57,8 @@ export function ReportExport() {
           options={[
             { value: "en", label: "English" },
             { value: "fr", label: "Français" },
+            { value: "de", label: "Deutsch" },
+            { value: "es", label: "Español" },
           ]}
           value={language.value}
           onChange={(next) => (language.value = next)}
