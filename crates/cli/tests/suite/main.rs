@@ -12,6 +12,7 @@ mod dynamics_said;
 mod exercise;
 mod generate;
 mod ik;
+mod linkages;
 mod motion;
 mod stream;
 mod trees;
