@@ -69,6 +69,17 @@ fn couplings(closed: &ClosedChain) -> String {
     let relations: Vec<String> = closed.passive.iter().map(relation).collect();
     let how = if closed.is_of_values { "proved for the values of the lengths" } else { "proved" };
     let mut text = format!("closed loops{mode}: {}; {how}", relations.join(", "));
+    if !closed.meets.is_empty() {
+        let zeros: Vec<String> = closed.meets.iter().map(|e| format!("{} = 0", plain(*e))).collect();
+        text += &format!(
+            "\nnote: its loops are flat, and modes meet, where {}: a parallel singularity",
+            zeros.join(" or ")
+        );
+    }
+    if !closed.beside.is_empty() {
+        let names = closed.beside.join(", ");
+        text += &format!("\nnote: links beside the chain have no masses in it: {names}");
+    }
     let renamed = closed.driven.iter().enumerate().filter_map(|(k, s)| {
         let own = format!("q{}", k + 1);
         (*s.name() != *own).then(|| format!("{own} is {}", s.name()))

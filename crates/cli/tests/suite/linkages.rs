@@ -37,6 +37,13 @@ fn every_verb_serves_a_parallelogram_as_a_chain() {
     assert!(shown.contains("q3 − q2 − 90°") && shown.contains("a spherical wrist"), "{shown}");
     assert!(shown.contains("assembly modes: = (parallelogram), x"), "{shown}");
     assert!(shown.contains("mobility 6 by rank (9 joints, constraints of rank 3"), "{shown}");
+    assert!(said.contains("where sin(q2 − q3) = 0: a parallel singularity"), "{said}");
+    let (code, _, said) = run(&["dynamics", "sr400", "--symbolic"]);
+    assert_eq!(
+        (code, said.contains("warning: this is the chain alone: the masses of lever, rod")),
+        (0, true),
+        "{said}"
+    );
     // The solutions are in driven joints, and each reaches the pose of the configuration.
     let q = "10deg,-80deg,20deg,30deg,40deg,50deg";
     let (code, solved, said) = run(&["ik", "sr400", "-q", q, "--json"]);

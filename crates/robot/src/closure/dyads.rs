@@ -4,9 +4,11 @@ use super::Open;
 use crate::description::linkage::dyad::{
     Complex, rpr, rpr_square, rrp, rrp_square, rrr, rrr_mirrored, rrr_square, slides,
 };
+use crate::description::linkage::spherical::{spherical, spherical_square, type_2};
 use crate::description::linkage::{Dyad, Sign, Step, Vectors};
+use crate::geometry::Rotation;
 use denavit_program::{Function, Graph, Program};
-use denavit_symbolic::{Angle, Symbol};
+use denavit_symbolic::{Angle, Expr, Symbol};
 use rustc_hash::FxHashSet;
 use std::f64::consts::{PI, TAU};
 
@@ -38,6 +40,7 @@ enum Kind {
     Slide,
     Cylinder,
     Slides,
+    Spherical,
 }
 
 impl Compiled {
@@ -49,6 +52,7 @@ impl Compiled {
             Dyad::Slide { a, u, p, .. } => (Kind::Slide, vec![a, u, p], &[]),
             Dyad::Cylinder { a, u, p, .. } => (Kind::Cylinder, vec![a, u, p], &[]),
             Dyad::Slides { along: [u, v], p, .. } => (Kind::Slides, vec![u, v, p], &[]),
+            Dyad::Spherical(_) => (Kind::Spherical, vec![], &[]),
         };
         let mut graph = Graph::new(symbols, &[]);
         let sums = vectors.into_iter().flat_map(|v| {
@@ -56,7 +60,11 @@ impl Compiled {
             [sum.re, sum.im]
         });
         let all = [step.turn.to_expr()].into_iter().chain(sums);
-        let all = all.chain(affine.iter().flatten().map(Angle::to_expr));
+        let rotations: Vec<Expr> = match &step.dyad {
+            Dyad::Spherical(between) => between.0.iter().flat_map(|r| r.rows().concat()).collect(),
+            _ => vec![],
+        };
+        let all = all.chain(rotations).chain(affine.iter().flatten().map(Angle::to_expr));
         let results: Vec<_> = all.enumerate().map(|(k, e)| (format!("x{k}"), graph.trace(e))).collect();
         let taken: FxHashSet<String> = symbols.iter().map(|s| s.name().to_string()).collect();
         let program = Program::new(&graph, &results, |_| None, &taken);
@@ -74,6 +82,9 @@ impl Compiled {
     pub fn solve(&self, all: &mut [f64], sign: Sign) -> Result<Met, Open> {
         let closure = self.closure;
         let known = self.known.scalar().eval(all).to_vec();
+        if self.kind == Kind::Spherical {
+            return self.solve_spherical(&known, all, sign);
+        }
         let vector = |k: usize| Complex::new(known[2 * k + 1], known[2 * k + 2]);
         let [a, b, p] = [0, 1, 2].map(vector);
         let by = if sign == Sign::Minus { -1.0 } else { 1.0 };
@@ -152,9 +163,37 @@ impl Compiled {
                 (all[self.slides[0]], all[self.slides[1]]) = (found[0], found[1]);
                 Met::Apart
             }
+            Kind::Spherical => unreachable!("it was solved above"),
         };
         for (place, [turn, one, two]) in &self.angles {
             all[*place] = wrapped(turn * known[0] + one * directions[0] + two * directions[1]);
+        }
+        Ok(met)
+    }
+}
+
+impl Compiled {
+    /// A spherical loop: `known` holds the three rotations from its second entry on.
+    fn solve_spherical(&self, known: &[f64], all: &mut [f64], sign: Sign) -> Result<Met, Open> {
+        let closure = self.closure;
+        let k: [Rotation<f64>; 3] = std::array::from_fn(|n| {
+            let at = |i: usize| known[1 + 9 * n + i];
+            Rotation::from_rows([[at(0), at(1), at(2)], [at(3), at(4), at(5)], [at(6), at(7), at(8)]])
+        });
+        let ([a, b, d], square) = (type_2(&k), spherical_square(&k));
+        let of = a * a + b * b;
+        if of <= FLAT || 1.0 - k[2].rows()[2][2].abs() <= FLAT {
+            return Err(Open::Indeterminate { closure });
+        }
+        let near = FLAT * (of + d * d);
+        if square < -near {
+            return Err(Open::Gap { closure, gap: d.abs() - of.sqrt() });
+        }
+        let met = if square <= near { Met::Meets } else { Met::Apart };
+        let h = if met == Met::Meets { 0.0 } else { square.sqrt() };
+        let found = spherical(&k, if sign == Sign::Minus { -h } else { h }).map(|e| e.im.atan2(e.re));
+        for (place, of) in &self.angles {
+            all[*place] = wrapped(of.iter().zip(found).map(|(k, x)| k * x).sum());
         }
         Ok(met)
     }

@@ -35,15 +35,25 @@ impl Mobility {
 /// How many configurations are tried until so many are closed.
 const TRIES: usize = 400;
 const WANTED: usize = 12;
+/// The same where loops are closed by descent, which takes its time.
+const NUMERIC_TRIES: usize = 24;
+/// How many modes are tried there.
+const NUMERIC_MODES: usize = 4;
 
 /// The mobility of a linkage; nothing if it does not close anywhere where it was tried.
 pub fn mobility(loops: &Loops) -> Option<Mobility> {
     let mut random = Random(0xC105ED);
     let n = loops.driven().len();
     let (mut found, mut best): (usize, Option<Mobility>) = (0, None);
-    for _ in 0..TRIES {
+    let is_numeric = !loops.rest.is_empty();
+    let mut modes = loops.plan().modes();
+    if is_numeric {
+        modes.truncate(NUMERIC_MODES);
+    }
+    for _ in 0..if is_numeric { NUMERIC_TRIES } else { TRIES } {
         let q = anywhere(loops, &mut random);
-        let Some(assembly) = loops.assemblies(&q).into_iter().find(|a| a.flat.is_empty()) else { continue };
+        let closed = |mode| loops.assembly(&q, mode).ok().filter(|a| a.flat.is_empty());
+        let Some(assembly) = modes.iter().find_map(closed) else { continue };
         found += 1;
         let w = loops.constraint(&[&q[..], &assembly.passive[..]].concat());
         let rank = Factors::of(&w, RANK).rank();
@@ -163,8 +173,11 @@ pub fn findings(linkage: &Linkage) -> Vec<Diagnostic> {
 /// Whether it closes at rest and anywhere, and whether its mobility is that of its driven joints.
 fn closes(linkage: &Linkage, loops: &Loops, first: &std::ops::Range<usize>, out: &mut Diagnostics) {
     let rest = vec![0.0; loops.driven().len()];
-    let at_rest: Vec<Result<_, Open>> =
-        loops.plan().modes().iter().map(|mode| loops.assembly(&rest, mode)).collect();
+    let mut modes = loops.plan().modes();
+    if !loops.rest.is_empty() {
+        modes.truncate(NUMERIC_MODES);
+    }
+    let at_rest: Vec<Result<_, Open>> = modes.iter().map(|mode| loops.assembly(&rest, mode)).collect();
     let mobility = mobility(loops);
     if at_rest.iter().all(Result::is_err) {
         let gap = at_rest.iter().find_map(|a| match a {

@@ -9,7 +9,7 @@ use crate::random::Random;
 use std::f64::consts::PI;
 
 /// How often it is begun.
-const STARTS: usize = 40;
+const STARTS: usize = 16;
 /// How many steps it takes at most.
 const STEPS: usize = 60;
 

@@ -3,6 +3,7 @@
 use crate::common::Random;
 use denavit::catalogue;
 use denavit::closure::{Loops, Open, findings, mobility};
+use denavit::description::linkage::spherical::{spherical_square, type_2};
 use denavit::description::linkage::{Dyad, Plan, Unsolved};
 use denavit::description::{
     Convention, Decimals, Described, Description, Linkage, NotCoupled, prove_same_chain, read_par,
@@ -96,6 +97,10 @@ fn symoros_sr400_has_its_closure_relations() {
     let names: Vec<String> = chain.variables.iter().map(|s| s.name().to_string()).collect();
     assert_eq!(names, ["q1", "q2", "q6", "q3", "q4", "q5"], "the lever stands third on the way");
     assert_eq!(chain.description.rows[2].theta.to_string(), "q3 - q2 - pi/2");
+    let closed = chain.closed.expect("it was taken out of a linkage");
+    let shown = |all: &[Expr]| all.iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(shown(&closed.meets), ["sin(q2 - q6)"], "flat where the lever lies along the arm");
+    assert_eq!(closed.beside, ["7", "8"]);
     let why = l.chain(None, None, Some("x"), Convention::Khalil).expect_err("crossed, it is not affine");
     assert_eq!(why, NotCoupled::NotAffine { passive: vec!["p1".into()], mode: "x".into() });
 }
@@ -424,22 +429,64 @@ fn dyads_are_proved_for_all_lengths() {
     assert!(is_zero(&[rest.re, rest.im]), "two slides");
 }
 
-#[test]
-fn spatial_loops_are_found_by_descent_and_say_so() {
-    // A spherical four-bar: all axes through the origin.
-    let text = "name = \"x\"\nconvention = \"khalil\"\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\n[[joints]]\nname = \"b\"\n\
+/// A spherical four-bar: all axes through the origin.
+fn spherical(last: &str) -> String {
+    format!(
+        "name = \"x\"\nconvention = \"khalil\"\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\n[[joints]]\nname = \"b\"\n\
         alpha = \"40 deg\"\ntheta = \"p1\"\n[[joints]]\nname = \"c\"\nafter = \"base\"\nalpha = \"70 deg\"\ntheta = \"p2\"\n\
-        [[closures]]\nleft = { after = \"b\", alpha = \"60 deg\", theta = \"p3\" }\n\
-        right = { after = \"c\", alpha = \"50 deg\" }\n";
-    let l = linkage(text);
-    assert!(matches!(Plan::of(&l).unsolved[..], [(0, Unsolved::NotPlanar(_))]));
+        [[closures]]\nleft = {{ after = \"b\", alpha = \"60 deg\", theta = \"p3\" }}\n\
+        right = {{ after = \"c\", {last} }}\n"
+    )
+}
+
+#[test]
+fn spherical_loops_have_closed_forms() {
+    let l = linkage(&spherical("alpha = \"50 deg\""));
+    let plan = Plan::of(&l);
+    let [step] = &plan.steps[..] else { panic!("{:?}", plan.unsolved) };
+    let Dyad::Spherical(between) = &step.dyad else { panic!("it is spherical") };
+    // Proved: Rz(a)·K1·Rz(b)·K2·Rz(c)·K3 has the zz entry that b is made for, for all q1.
+    let [a, b, d] = type_2(&between.0);
+    let h = spherical_square(&between.0).sqrt();
+    let cos = (a * d - b * h) / (a * a + b * b);
+    let sin = (b * d + a * h) / (a * a + b * b);
+    for e in [a * cos + b * sin - d, cos * cos + sin * sin - Expr::int(1)] {
+        assert!(equal(e, Expr::int(0)).is_equal());
+    }
     let loops = Loops::new(&l).expect("values");
-    for k in 0..12 {
-        let q = f64::from(k) * 0.5 - 3.0;
-        for a in loops.assemblies(&[q]) {
-            assert!(a.is_numeric && a.residual < 1e-9);
+    let (mut two, mut none) = (0, 0);
+    for k in 0..63 {
+        let q = f64::from(k) * 0.1 - 3.1;
+        let all = loops.assemblies(&[q]);
+        assert!(all.iter().all(|a| !a.is_numeric && a.residual < 1e-12), "{all:?}");
+        match all.len() {
+            2 => two += 1,
+            0 => none += 1,
+            n => panic!("{n} at {q}"),
         }
     }
+    assert!(two > 10 && none + two == 63, "{two} {none}");
     assert_eq!(mobility(&loops).expect("it closes").count(), 1);
+}
+
+#[test]
+fn loops_that_are_neither_are_found_by_descent_and_say_so() {
+    // One axis misses the others by 10 cm, so that nothing moves: the mobility is 0, where it closes at all.
+    let l = linkage(&spherical("alpha = \"50 deg\", d = 0.1"));
+    assert!(matches!(Plan::of(&l).unsolved[..], [(0, Unsolved::NotPlanar(_))]));
+    let loops = Loops::new(&l).expect("values");
+    for k in 0..6 {
+        assert!(loops.assemblies(&[f64::from(k)]).iter().all(|a| a.is_numeric && a.residual < 1e-8));
+    }
+    // A planar loop of two driven and four passive joints: a descent ends in one of its modes.
+    let five = "name = \"x\"\nconvention = \"khalil\"\n[[joints]]\nname = \"a\"\ntheta = \"q1\"\n[[joints]]\nname = \"b\"\nd = 1\n\
+        theta = \"p1\"\n[[joints]]\nname = \"c\"\nd = 1\ntheta = \"p2\"\n[[joints]]\nname = \"e\"\nafter = \"base\"\nd = 1.5\n\
+        theta = \"p3\"\n[[closures]]\nleft = { after = \"c\", d = 1, theta = \"p4\" }\nright = { after = \"e\", d = 1 }\n";
+    let l = linkage(five);
+    assert!(matches!(&Plan::of(&l).unsolved[..], [(0, Unsolved::Unknowns(all))] if all.len() == 4));
     assert!(findings(&l).iter().any(|d| d.message.contains("found by Newton's method")));
+    let loops = Loops::new(&l).expect("values");
+    let a = &loops.assemblies(&[0.7])[0];
+    assert!(a.is_numeric && a.residual < 1e-9, "{a:?}");
+    assert_eq!(mobility(&loops).expect("it closes").count(), 2);
 }

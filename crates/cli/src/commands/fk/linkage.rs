@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, HEADING, NAME, matrix, noise, note, number, styled, table};
 use denavit::closure::{Assembly, Loops, Open};
+use denavit::description::linkage::spherical::type_2;
 use denavit::description::linkage::{Dyad, Linkage, Mode, Plan, Step, Unsolved, Vectors};
 use denavit::description::{Convention, JointKind};
 use denavit::geometry::Transform;
@@ -68,7 +69,7 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
             row.iter().enumerate().map(|(c, &e)| number(e, if c == 3 { rounding } else { 1e-14 })).collect()
         };
         let entries: Vec<Vec<String>> = pose.matrix().iter().map(row).collect();
-        let label = format!("{} T(base → {name}) = ", mode_of(a));
+        let label = format!("{} T(base → {name}) = ", a.mode);
         text += &format!("\n{}", matrix(label.trim_start(), &entries, Align::Right));
     }
     write!(out, "{text}")?;
@@ -244,6 +245,7 @@ pub fn dyad_name(step: &Step) -> &'static str {
         Dyad::Slide { .. } => "R R P",
         Dyad::Cylinder { .. } => "R P R",
         Dyad::Slides { .. } => "R P P",
+        Dyad::Spherical(_) => "R R R",
     }
 }
 
@@ -252,6 +254,21 @@ fn step_text(step: &Step) -> String {
     let mut line = |what: &str| text += &format!("  {what}\n");
     let turn = shown(step.turn.to_expr(), true);
     match &step.dyad {
+        Dyad::Spherical(between) => {
+            line("Rz(α)·K1·Rz(β)·K2·Rz(γ)·K3 = 1: A·cos β + B·sin β = D, h = ±√(A² + B² − D²)");
+            let [a, b, d] = type_2(&between.0).map(|e| shown(e, false));
+            line(&format!("A = {a}, B = {b}, D = {d}"));
+            line(
+                "cos β = (AD − Bh)/(A² + B²), sin β = (BD + Ah)/(A² + B²); γ and α from the third row and column",
+            );
+            let names = ["α", "β", "γ"];
+            for sum in &step.angles {
+                let (k, sign) =
+                    (0..3).find_map(|k| Some((k, sum.of[k])).filter(|f| f.1 != 0)).unwrap_or((0, 1));
+                line(&format!("{} = {}{}", sum.symbol.name(), if sign < 0 { "−" } else { "" }, names[k]));
+            }
+            return text;
+        }
         Dyad::Turns { a, b, p, affine } => {
             line(&format!(
                 "A·e(ψ1) + B·e(ψ2) = P with A = {}, B = {}, P = {}",
@@ -331,8 +348,9 @@ pub fn about(linkage: &Linkage, loops: Option<&Loops>) -> String {
             _ => "",
         };
         text += &format!(
-            "  {}: planar, {}{special}: {} in closed form\n",
+            "  {}: {}, {}{special}: {} in closed form\n",
             styled(&linkage.loop_name(step.closure), NAME),
+            if matches!(step.dyad, Dyad::Spherical(_)) { "spherical" } else { "planar" },
             dyad_name(step),
             names.join(", ")
         );

@@ -12,7 +12,7 @@ use denavit_wire::Schema;
 use denavit_wire::linkage::ClosedRates;
 use std::io::Write;
 
-/// Singular values below this, by the largest, count as 0.
+/// Singular values below this, by the largest, count as 0, and so do all that are less than it by a millimetre and a milliradian.
 const RANK: f64 = 1e-9;
 
 /// Answers for a linkage: for the mode that is asked for, or for all.
@@ -80,7 +80,7 @@ pub fn run(arguments: &JacobianArguments, linkage: &Linkage) -> Result<(), Failu
 fn rank(columns: &[[f64; 6]]) -> usize {
     let values = singular_values(columns.to_vec());
     let first = values.first().copied().unwrap_or(0.0);
-    values.iter().filter(|v| **v > RANK * first).count()
+    values.iter().filter(|v| **v > RANK * first.max(1e-3)).count()
 }
 
 /// One assembly: G, J, and what is singular.

@@ -1,10 +1,12 @@
 //! The serial chain that a linkage is where its passive joints are affine in the driven ones: they become couplings.
 
-use super::mode::{Mode, NoMode};
-use super::order::Plan;
+use super::dyad::Complex;
+use super::mode::{Mode, NoMode, Sign};
+use super::order::{Dyad, Plan};
 use super::{Linkage, is_passive};
 use crate::description::branches::{NamedFrame, RowChain, RowTree};
 use crate::description::{Convention, NoChain, Row};
+use denavit_symbolic::factor::factored;
 use denavit_symbolic::{Angle, Expr, Symbol, equal};
 use std::fmt;
 
@@ -23,6 +25,11 @@ pub struct ClosedChain {
     pub is_of_values: bool,
     /// Passive joints with limits, which a chain has no place for.
     pub without_limits: Vec<String>,
+    /// Frames of rows beside the chain that move with it: links that have no place in it.
+    pub beside: Vec<String>,
+    /// What is 0 where the affine mode of a loop meets its other one, the factors with joints alone: there the loop is flat, a parallel
+    /// singularity that the chain knows nothing of.
+    pub meets: Vec<Expr>,
 }
 
 /// Why a linkage is no serial chain.
@@ -130,6 +137,13 @@ impl Linkage {
             is_limited && row.variable.is_some_and(|v| is_passive(v.symbol))
         };
         let limited = self.tree.rows.iter().filter(has_limits).filter_map(|r| r.variable);
+        let on_way = self.tree.way(self.tree.row_of(&end));
+        let is_beside = |j: &usize| {
+            let moves = self.tree.way(Some(*j)).iter().any(|&k| self.tree.rows[k].variable.is_some());
+            moves && !on_way.contains(j)
+        };
+        let beside = (0..self.tree.rows.len()).filter(is_beside).map(|j| self.tree.frame_name(j)).collect();
+        let meets = self.meets(&plan, &mode);
         chain.closed = Some(Box::new(ClosedChain {
             mode_name: self.mode_name(&plan, &mode).map(str::to_string),
             mode,
@@ -137,6 +151,8 @@ impl Linkage {
             passive: affine.into_iter().filter_map(|(s, e)| Some((s, e?))).collect(),
             is_of_values,
             without_limits: limited.map(|v| v.symbol.name().to_string()).collect(),
+            beside,
+            meets,
         }));
         Ok(chain)
     }
@@ -168,6 +184,33 @@ impl Linkage {
         let poses = self.poses.clone();
         let tree = RowTree { rows, after, frames, poses, ..self.tree.clone() };
         (tree, place.iter().map(Option::is_none).collect())
+    }
+
+    /// What is 0 where an affine solution meets the other one: the factors with joints of P × A·e₁.
+    fn meets(&self, plan: &Plan, mode: &Mode) -> Vec<Expr> {
+        let affine = plan.affine(mode);
+        let value = |s: Symbol| affine.iter().find(|a| a.0 == s).and_then(|a| a.1);
+        let variables: Vec<Symbol> = self.driven().iter().map(|v| v.symbol).collect();
+        let mut all: Vec<Expr> = vec![];
+        for (step, sign) in plan.steps.iter().zip(&mode.0) {
+            let Dyad::Turns { a, p, affine, .. } = &step.dyad else { continue };
+            let solution = match sign {
+                Sign::Affine => affine.first(),
+                Sign::Crossed => affine.get(1),
+                _ => None,
+            };
+            let Some([one, _]) = solution else { continue };
+            let w = a.formula() * Complex::direction(one.to_expr());
+            let area = (p.formula().conj() * w).im.substitute(value);
+            let Ok(product) = factored(area, &variables) else { continue };
+            for (factor, _) in product.factors {
+                let moves = factor.symbols().iter().any(|s| variables.contains(s));
+                if moves && !all.contains(&factor) {
+                    all.push(factor);
+                }
+            }
+        }
+        all
     }
 
     /// The first closure that is not proved to close in this mode, of those whose passive joints are all affine.

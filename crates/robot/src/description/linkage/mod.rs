@@ -14,6 +14,7 @@ pub mod dyad;
 mod mode;
 mod order;
 mod plane;
+pub mod spherical;
 mod write_par;
 
 pub use chain::{ClosedChain, NotCoupled};
@@ -21,6 +22,7 @@ pub use dyad::Complex;
 pub use mode::{Mode, NoMode, Sign};
 pub use order::{Dyad, Plan, Step, Sum, Unsolved, Vectors};
 pub use plane::{Fault, Planar, Term};
+pub use spherical::{Between, Spherical};
 pub use write_par::write_linkage_par;
 
 use super::branches::{NamedFrame, RowTree};

@@ -10,7 +10,7 @@ use std::fmt;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Sign {
     /// The root with its plus: the triangle of the dyad turns as the normal of the loop does; of one with a slide, the other two
-    /// lie on the side of the slide's direction.
+    /// lie on the side of the slide's direction; of a spherical loop, on which side of each other its three axes lie.
     Plus,
     /// The root with its minus.
     Minus,
@@ -97,6 +97,9 @@ impl Step {
             _ => None,
         };
         let own = |angle: &super::order::Sum| {
+            if matches!(self.dyad, Dyad::Spherical(_)) {
+                return (angle.symbol, None);
+            }
             let [turn, one, two] = angle.of;
             let times = |a: &Angle, k: i64| a.scaled(&Rational::from(k));
             let form = match (found, one, two) {

@@ -3,6 +3,7 @@
 use super::affine::Affine;
 use super::dyad::Complex;
 use super::plane::{Fault, Planar, Term};
+use super::spherical::{Between, Spherical};
 use super::{Linkage, is_passive};
 use crate::scalar::Scalar;
 use denavit_symbolic::{Angle, Expr, Node, Rational, Symbol, readable};
@@ -14,6 +15,8 @@ pub struct Vectors(pub Vec<Term>);
 /// What three unknown joints of a loop are to each other. Unknown directions have length 1.
 #[derive(Clone, Debug)]
 pub enum Dyad {
+    /// All axes of the loop meet in one point: the rotations between the three that are unknown.
+    Spherical(Between),
     /// Three turn: A·e₁ + B·e₂ = P.
     Turns {
         /// A
@@ -58,7 +61,8 @@ pub enum Dyad {
     },
 }
 
-/// An unknown angle as whole multiples of what is found: of the turn that is left, of the angle of e₁, and of that of e₂.
+/// An unknown angle as whole multiples of what is found: of the turn that is left, of the angle of e₁, and of that of e₂; in a spherical
+/// loop of its three angles.
 #[derive(Clone, Debug)]
 pub struct Sum {
     /// The variable.
@@ -123,11 +127,18 @@ impl Plan {
     pub fn of(linkage: &Linkage) -> Self {
         let mut planar: Vec<(usize, Result<Planar, Fault>)> =
             (0..linkage.closures.len()).map(|k| (k, Planar::of(linkage, k))).collect();
+        let spherical: Vec<Option<Spherical>> = planar
+            .iter()
+            .map(|(k, plane)| if plane.is_err() { Spherical::of(linkage, *k) } else { None })
+            .collect();
         let mut unknown: Vec<Symbol> = linkage.passive().iter().map(|v| v.symbol).collect();
         let mut steps: Vec<Step> = vec![];
         loop {
             let next = planar.iter().enumerate().find_map(|(at, (closure, plane))| {
-                let step = Step::of(*closure, plane.as_ref().ok()?, &unknown)?;
+                let step = match plane {
+                    Ok(plane) => Step::of(*closure, plane, &unknown)?,
+                    Err(_) => Step::of_spherical(*closure, spherical[*closure].as_ref()?, &unknown)?,
+                };
                 Some((at, step))
             });
             let Some((at, step)) = next else { break };
@@ -186,7 +197,7 @@ impl Step {
     /// The unknown variables that it finds.
     pub fn unknowns(&self) -> Vec<Symbol> {
         let slides: &[Symbol] = match &self.dyad {
-            Dyad::Turns { .. } => &[],
+            Dyad::Turns { .. } | Dyad::Spherical(_) => &[],
             Dyad::Slide { slide, .. } | Dyad::Cylinder { slide, .. } => std::slice::from_ref(slide),
             Dyad::Slides { slides, .. } => slides,
         };
@@ -196,6 +207,18 @@ impl Step {
     /// How many solutions it has at most.
     pub fn solutions(&self) -> usize {
         if matches!(self.dyad, Dyad::Slides { .. }) { 1 } else { 2 }
+    }
+
+    /// The step for a spherical loop, if three of its joints are unknown.
+    fn of_spherical(closure: usize, loop_: &Spherical, unknown: &[Symbol]) -> Option<Self> {
+        let (turns, between) = loop_.between(unknown)?;
+        let angle = |(k, &(symbol, sign)): (usize, &(Symbol, i64))| {
+            let mut of = [0; 3];
+            of[k] = sign;
+            Sum { symbol, of }
+        };
+        let angles = turns.iter().enumerate().map(angle).collect();
+        Some(Step { closure, dyad: Dyad::Spherical(between), turn: Angle::default(), angles })
     }
 
     /// The step for a planar loop, if three of its joints are unknown and make a dyad.

@@ -102,8 +102,13 @@ impl Reader<'_> {
         (halves, drafts)
     }
 
-    /// Says what of the variables of closures cannot be: `variables` are those of the sides.
-    pub fn check_sides(&mut self, drafts: &[Cells], variables: &[Option<Variable>]) {
+    /// Says what of the variables of closures cannot be: `variables` are those of the sides, `all` those of all rows, too.
+    pub fn check_sides(
+        &mut self,
+        drafts: &[Cells],
+        variables: &[Option<Variable>],
+        all: &[Option<Variable>],
+    ) {
         for (k, (cells, variable)) in drafts.iter().zip(variables).enumerate() {
             let moving = [&cells.theta, &cells.d].into_iter().flat_map(|c| &c.symbols);
             let moving = moving.filter(|s| variable_number(&s.0).is_some() || passive_number(&s.0).is_some());
@@ -115,7 +120,12 @@ impl Reader<'_> {
                         format!("the right side of a closure is constant, and holds `{name}`"),
                     )
                     .hint("the variable of the cut joint stands on the left side");
-            } else if variable.is_none_or(|v| !is_passive(v.symbol)) {
+                continue;
+            }
+            // What is wrong with how they are counted is said where they are counted.
+            let is_another = || all.iter().flatten().any(|v| *v.symbol.name() == **name);
+            let is_cut = variable.map_or_else(|| !is_another(), |v| is_passive(v.symbol));
+            if !is_cut {
                 self.out
                     .error(span.clone(), format!("`{name}` is not the variable of a cut joint"))
                     .hint("a joint that is cut is passive, and has a variable of its own: p1, p2, …; driven joints stand in [[joints]]");

@@ -155,7 +155,7 @@ impl Reader<'_> {
             None => rows::assign_variables(&cells, order, &mut self.out),
             Some(_) => rows::assign_all_variables(&cells, order, &mut self.out),
         };
-        self.check_sides(&cells[count..], &variables[count..]);
+        self.check_sides(&cells[count..], &variables[count..], &variables);
         let mut uses = parameters::Uses::of(&cells, &frame_cells);
         let driven = variables.iter().flatten().filter(|v| !passive.contains(&v.symbol.name().to_string()));
         let kinds: Vec<JointKind> = driven.map(|v| v.kind).collect();
