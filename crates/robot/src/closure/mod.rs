@@ -224,7 +224,7 @@ impl Loops {
         let apart = self.apart(&all);
         let worst = apart.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let (closure, residual) = worst.unwrap_or((0, 0.0));
-        if !(residual <= CLOSED * self.size.max(1.0)) {
+        if residual.is_nan() || residual > CLOSED * self.size.max(1.0) {
             return Err(Open::Contradicts { closure, gap: residual });
         }
         let is_numeric = !self.rest.is_empty();

@@ -222,7 +222,7 @@ fn formulas(linkage: &Linkage, tip: Option<&str>) -> Result<String, Failure> {
             text += &format!("  t{}{} = {}\n", i + 1, j + 1, shown(e, false));
         }
     }
-    text += "\n  the forms of the dyads are proved for all lengths and angles; e(φ) = (cos φ, sin φ), vectors multiply as complex numbers\n";
+    text += "\n  the forms of planar dyads are proved for all lengths and angles; e(φ) = (cos φ, sin φ), vectors multiply as complex numbers\n";
     Ok(text)
 }
 
