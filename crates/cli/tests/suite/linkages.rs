@@ -56,7 +56,8 @@ fn every_verb_serves_a_parallelogram_as_a_chain() {
         vec!["fk", "sr400", "-q", "turret=0.5", "--frames", "all"],
         vec!["jacobian", "sr400", "-q", q],
         vec!["derive", "sr400"],
-        vec!["ik", "palletiser", "--explain"],
+        vec!["ik", "sr400", "--explain"],
+        vec!["ik", "palletiser", "-q", "10deg,60deg,20deg,5deg"],
         vec!["convert", "palletiser", "--to", "urdf"],
     ] {
         let (code, _, said) = run(&arguments);
