@@ -1,8 +1,8 @@
-//! Any text as a `.par` file: it is refused with a reason, or its tree has chains and is written again.
+//! Any text as a `.par` file: it is refused with a reason, or what it describes has chains and is written again.
 
 #![no_main]
 
-use denavit::description::{Convention, Decimals, read_par, render, write_par};
+use denavit::description::{Convention, Decimals, Described, read_par, render, write_linkage_par, write_par};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
@@ -11,10 +11,20 @@ fuzz_target!(|text: &str| {
             assert!(!findings.is_empty(), "refused without a reason");
             render(&findings, "robot.par", text);
         }
-        Ok((tree, findings)) => {
+        Ok((read, findings)) => {
             render(&findings, "robot.par", text);
-            let _ = tree.chain(None, None, Convention::Standard);
-            if let Ok(file) = write_par(&tree)
+            let file = match &read {
+                Described::Linkage(linkage) => {
+                    let _ = linkage.chain(None, None, None, Convention::Standard);
+                    write_linkage_par(linkage)
+                }
+                Described::Tree(tree) => {
+                    let _ = tree.chain(None, None, Convention::Standard);
+                    write_par(tree)
+                }
+                Described::Chain(_) => return,
+            };
+            if let Ok(file) = file
                 && let Err(findings) = read_par(&file.text, Decimals::Meant)
             {
                 panic!("{}\n{}", render(&findings, "written.par", &file.text), file.text);

@@ -1,17 +1,20 @@
 //! From what stands on the command line to a robot.
 
+mod linkage;
 mod rows;
 mod urdf;
 
 pub use denavit_load::{Around, contents, frame, is_tree, joint};
+pub use linkage::{linkage, loops, without_chain};
 pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
+use denavit::description::linkage::Plan;
 use denavit::description::{
-    Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, RowTree, Severity, TableOptions,
-    read_robot, read_table_robot, read_value, write_toml,
+    Described, Description, Diagnostic, Linkage, MAX_BYTES, Measure, Mechanism, RowTree, Severity,
+    TableOptions, read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_load::{
     Content, Contents, ENDINGS, Finding, Kind, Options, Problem, catalogue_name, close_names, listed,
@@ -57,7 +60,9 @@ fn all(arguments: &RobotArguments) -> Result<(Description, String, Around), Fail
         None => from_file(arguments)?,
     };
     let mut seen: Vec<&str> = vec![];
-    for setting in &arguments.set {
+    // What has closed loops has its values already: they decide how its loops close.
+    let is_closed = matches!(&around, Around::Rows(chain) if chain.closed.is_some());
+    for setting in arguments.set.iter().filter(|_| !is_closed) {
         let name = setting.split('=').next().unwrap_or_default().trim();
         if seen.contains(&name) {
             return Err(Failure::Usage(format!("--set gives {name} two values")));
@@ -180,6 +185,10 @@ fn pairs(settings: &[String], option: &str, example: &str) -> Result<Vec<(String
 /// The chain of what was read, and its text if that describes just this chain.
 fn robot_of_rows(arguments: &RobotArguments, described: Described, text: &str) -> Result<Found, Failure> {
     let is_chain = matches!(described, Described::Chain(_));
+    if let Described::Linkage(of) = described {
+        let (description, around) = linkage::chain(arguments, of)?;
+        return Ok((description, None, around));
+    }
     let (description, around) = rows::chain(arguments, Content::Rows(described))?;
     Ok((description, is_chain.then(|| text.to_string()), around))
 }
@@ -201,11 +210,14 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
         }
         Some(Kind::Par) => {
             check_options(arguments, false)?;
-            let tree = rows::par(arguments)?;
-            if tree.is_chain() {
-                return Ok(None);
+            match rows::par(arguments)? {
+                Content::Par(tree) if !tree.is_chain() => Tree::Rows(*tree),
+                Content::Rows(Described::Linkage(of)) => match closed_tree(arguments, &of) {
+                    Some(tree) => Tree::Rows(tree),
+                    None => return Ok(None),
+                },
+                _ => return Ok(None),
             }
-            Tree::Rows(tree)
         }
         kind => {
             let is_listed = listed.is_some();
@@ -220,18 +232,39 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
                 (None, Some(Kind::Robot | Kind::Table(_))) => contents(name, MAX_BYTES).ok(),
                 _ => None,
             };
-            let Some(Ok((Described::Tree(tree), findings))) = text.as_deref().and_then(read) else {
+            let Some(Ok((described, findings))) = text.as_deref().and_then(read) else {
                 return Ok(None);
+            };
+            let tree = match described {
+                Described::Tree(tree) => *tree,
+                Described::Linkage(of) => match closed_tree(arguments, &of) {
+                    Some(tree) => tree,
+                    None => return Ok(None),
+                },
+                Described::Chain(_) => return Ok(None),
             };
             check_options(arguments, is_listed)?;
             note(render(&findings, name, text.as_deref().unwrap_or_default()).trim_end());
-            Tree::Rows(*tree)
+            Tree::Rows(tree)
         }
     };
     if !arguments.set.is_empty() {
         return Err(Failure::Usage("--set is for one chain: name its end with --tip".into()));
     }
     Ok(Some(tree))
+}
+
+/// The tree of a linkage of which all passive joints are couplings of driven ones, proved, in the mode that is asked for.
+fn closed_tree(arguments: &RobotArguments, linkage: &Linkage) -> Option<RowTree> {
+    let numbers = linkage.in_numbers();
+    [linkage, &numbers].into_iter().find_map(|linkage| {
+        let plan = Plan::of(linkage);
+        let mode = linkage.mode(&plan, arguments.mode.as_deref()).ok()?;
+        let (tree, is_left_out) = linkage.coupled(&plan, &mode);
+        let all_affine = plan.affine(&mode).iter().all(|a| a.1.is_some()) && plan.unsolved.is_empty();
+        let is_whole = !is_left_out.contains(&true) && all_affine;
+        (is_whole && linkage.first_open(&plan, &mode).is_none()).then_some(tree)
+    })
 }
 
 /// A whole tree.

@@ -138,9 +138,11 @@ impl Request {
         let words = Tongue::English.words();
         let name = self.name();
         let convention = self.options.table.convention;
-        let taken = content.chain(name, self.base.as_deref(), self.tip.as_deref(), convention);
+        let taken = content.chain(name, self.base.as_deref(), self.tip.as_deref(), None, convention);
         let (description, around) = taken.map_err(|why| {
             let why = match why {
+                NotTaken::NotCoupled(why) => format!("{name}: {why}"),
+                NotTaken::NoLoops => format!("{name} has no closed loops"),
                 NotTaken::OneChain => format!("{name} is one chain: it has no links to choose from"),
                 NotTaken::NoChain(why) => {
                     let hint = if matches!(why, NoChain::Several(_)) { "; name one as tip" } else { "" };

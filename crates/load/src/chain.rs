@@ -2,7 +2,7 @@
 
 use crate::read::Content;
 use denavit::description::{
-    Chain, Convention, Described, Description, Mechanism, NamedFrame, NoChain, RowChain, RowTree,
+    Chain, Convention, Described, Description, Mechanism, NamedFrame, NoChain, NotCoupled, RowChain, RowTree,
 };
 
 /// What a chain was taken out of.
@@ -22,6 +22,19 @@ pub enum NotTaken {
     OneChain,
     /// There is none in the tree.
     NoChain(NoChain),
+    /// There are closed loops, and they leave none.
+    NotCoupled(NotCoupled),
+    /// An assembly mode is named of what has no closed loops.
+    NoLoops,
+}
+
+impl From<NotCoupled> for NotTaken {
+    fn from(why: NotCoupled) -> Self {
+        match why {
+            NotCoupled::NoChain(why) => NotTaken::NoChain(why),
+            why => NotTaken::NotCoupled(why),
+        }
+    }
 }
 
 impl From<NoChain> for NotTaken {
@@ -62,7 +75,7 @@ impl Around {
 
 impl Content {
     /// The chain from `base` to `tip`, or as the tree has it where these are not named; its table is in `convention`, or else in
-    /// Khalil's of rows and the standard one of bodies. `name` is that of the file.
+    /// Khalil's of rows and the standard one of bodies. `name` is that of the file, `mode` the assembly mode of a linkage.
     ///
     /// # Errors
     /// If there is no such chain.
@@ -71,8 +84,12 @@ impl Content {
         name: &str,
         base: Option<&str>,
         tip: Option<&str>,
+        mode: Option<&str>,
         convention: Option<Convention>,
     ) -> Result<(Description, Around), NotTaken> {
+        if mode.is_some() && !matches!(self, Content::Rows(Described::Linkage(_))) {
+            return Err(NotTaken::NoLoops);
+        }
         let of_rows = |tree: &RowTree| {
             let chain = tree.chain(base, tip, convention.unwrap_or(Convention::Khalil))?;
             Ok((chain.description.clone(), Around::Rows(Box::new(chain))))
@@ -81,6 +98,10 @@ impl Content {
             Content::Rows(Described::Chain(_)) if base.is_some() || tip.is_some() => Err(NotTaken::OneChain),
             Content::Rows(Described::Chain(description)) => Ok((*description, Around::Nothing)),
             Content::Rows(Described::Tree(tree)) | Content::Par(tree) => of_rows(&tree),
+            Content::Rows(Described::Linkage(linkage)) => {
+                let chain = linkage.chain(base, tip, mode, convention.unwrap_or(Convention::Khalil))?;
+                Ok((chain.description.clone(), Around::Rows(Box::new(chain))))
+            }
             Content::Bodies(mechanism) => {
                 let chain = mechanism.chain(base, tip, convention.unwrap_or(Convention::Standard))?;
                 let [from, to] = [chain.from, chain.to].map(|b| mechanism.bodies[b].name.clone());

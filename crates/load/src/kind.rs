@@ -88,14 +88,16 @@ pub fn catalogue_name(text: &str) -> Option<String> {
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
 }
 
-/// The file of an arm of the catalogue, or of a structure beside it.
+/// The file of an arm of the catalogue, or of a structure or a linkage beside it.
 pub fn listed(name: &str) -> Option<&'static str> {
-    catalogue::text(name).or_else(|| catalogue::structure_text(name))
+    catalogue::text(name)
+        .or_else(|| catalogue::structure_text(name))
+        .or_else(|| catalogue::linkage_text(name))
 }
 
 /// Names of the catalogue that may have been meant.
 pub fn close_names(name: &str) -> Vec<&'static str> {
-    let names = catalogue::names().into_iter().chain(catalogue::structures());
+    let names = catalogue::names().into_iter().chain(catalogue::structures()).chain(catalogue::linkages());
     let mut close: Vec<&str> = names.filter(|n| similar(n, name)).collect();
     // What differs in signs alone is meant before all others.
     close.sort_by_key(|n| plain(n) != plain(name));

@@ -3,6 +3,7 @@
 use crate::folder::Folder;
 use crate::kind::Kind;
 use crate::text::contents;
+use denavit::closure;
 use denavit::description::{
     Decimals, Described, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Mechanism, RowTree, Severity, TableOptions,
     is_mjcf, read_bodies, read_par, read_program, read_robot, read_table_robot,
@@ -115,6 +116,7 @@ pub fn read_text(name: &str, text: Arc<str>, kind: Kind, options: &Options) -> R
         Kind::Bodies => return bodies(name, text, options),
         Kind::Robot => {
             let (read, found) = read_robot(&text).map_err(errors)?;
+            let found = with_loops(&read, found).map_err(errors)?;
             (Content::Rows(read), found)
         }
         Kind::Table(kind) => {
@@ -122,8 +124,12 @@ pub fn read_text(name: &str, text: Arc<str>, kind: Kind, options: &Options) -> R
             (Content::Rows(read), found)
         }
         Kind::Par => {
-            let (tree, found) = read_par(&text, options.decimals()).map_err(errors)?;
-            (Content::Par(Box::new(tree)), found)
+            let (read, found) = read_par(&text, options.decimals()).map_err(errors)?;
+            let found = with_loops(&read, found).map_err(errors)?;
+            match read {
+                Described::Tree(tree) => (Content::Par(tree), found),
+                other => (Content::Rows(other), found),
+            }
         }
         Kind::Program(language) => {
             let (chain, found) = read_program(&text, language, options.table.table).map_err(errors)?;
@@ -132,6 +138,15 @@ pub fn read_text(name: &str, text: Arc<str>, kind: Kind, options: &Options) -> R
     };
     let findings = findings(found);
     Ok(Contents { content, text, findings, apart: 0.0 })
+}
+
+/// The findings, with those in the closed loops of what was read.
+fn with_loops(read: &Described, mut found: Vec<Diagnostic>) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
+    if let Described::Linkage(linkage) = read {
+        found.extend(closure::findings(linkage));
+    }
+    let has_errors = found.iter().any(|d| d.severity == Severity::Error);
+    if has_errors { Err(found) } else { Ok(found) }
 }
 
 /// A tree of bodies, with the files that it names.

@@ -33,6 +33,7 @@
 //! - [`forward`]: link transforms, the simplified model, the shortest algorithm for it.
 //! - [`velocity`]: Jacobians, singularities, velocities and forces.
 //! - [`dynamics`]: torques, inertia, gravity, motion, energy.
+//! - [`closure`]: closed loops: their assembly modes, passive joints and velocities.
 //! - [`inverse`]: closed forms with their derivation, elimination, redundancy, descent.
 //! - [`motion`]: paths of joints and hand, followed and timed; [`workspace`]: where the tool point comes to.
 //!
@@ -42,6 +43,7 @@
 //! Beside them: [`quantity`], numbers as a person reads them, and [`random`], numbers that look random.
 
 pub mod catalogue;
+pub mod closure;
 pub mod description;
 pub mod dynamics;
 pub mod forward;

@@ -3,12 +3,14 @@
 use crate::Schema;
 use crate::robot::joints;
 use denavit::catalogue;
-use denavit::description::{Description, RowTree};
+use denavit::description::{Description, Linkage, RowTree};
 use serde::Serialize;
 
 /// Some of the robots, or all.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Catalogue {
+    /// Arms and mechanisms with closed loops, in the order of their names.
+    pub linkages: Vec<Closed>,
     /// In the order of their names.
     pub robots: Vec<Listed>,
     /// The version.
@@ -45,6 +47,37 @@ impl Structure {
     }
 }
 
+/// A tree of rows with closed loops.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Closed {
+    /// How many joints are driven.
+    pub driven: usize,
+    /// How many loops it has.
+    pub loops: usize,
+    /// What it is called on a command line: `sr400`.
+    pub name: String,
+    /// How many joints are passive, cut ones included.
+    pub passive: usize,
+    /// Where its numbers come from.
+    pub source: Option<String>,
+    /// What people call it.
+    pub title: String,
+}
+
+impl Closed {
+    /// A linkage by its name.
+    pub fn of(name: &str, linkage: &Linkage) -> Self {
+        Closed {
+            driven: linkage.driven().len(),
+            loops: linkage.closures.len(),
+            name: name.into(),
+            passive: linkage.passive().len(),
+            source: linkage.tree.source.clone(),
+            title: linkage.tree.name.clone(),
+        }
+    }
+}
+
 /// A robot of the catalogue.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Listed {
@@ -74,23 +107,27 @@ impl Listed {
 }
 
 impl Catalogue {
-    /// The robots and the structures of lists.
+    /// The robots, the structures and the linkages of lists.
     pub fn of<'a>(
         robots: impl IntoIterator<Item = (&'a str, &'a Description)>,
         structures: impl IntoIterator<Item = (&'a str, &'a RowTree)>,
+        linkages: impl IntoIterator<Item = (&'a str, &'a Linkage)>,
     ) -> Self {
         Catalogue {
+            linkages: linkages.into_iter().map(|(name, l)| Closed::of(name, l)).collect(),
             robots: robots.into_iter().map(|(name, d)| Listed::of(name, d)).collect(),
             schema: Schema,
             structures: structures.into_iter().map(|(name, tree)| Structure::of(name, tree)).collect(),
         }
     }
 
-    /// All robots and structures.
+    /// All robots, structures and linkages.
     pub fn whole() -> Self {
         let listed = |name| Some(Listed::of(name, &catalogue::robot(name)?));
         let structure = |name| Some(Structure::of(name, &catalogue::structure(name)?));
+        let closed = |name| Some(Closed::of(name, &catalogue::linkage(name)?));
         Catalogue {
+            linkages: catalogue::linkages().into_iter().filter_map(closed).collect(),
             robots: catalogue::names().into_iter().filter_map(listed).collect(),
             schema: Schema,
             structures: catalogue::structures().into_iter().filter_map(structure).collect(),

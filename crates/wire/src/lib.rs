@@ -18,6 +18,7 @@ pub mod finding;
 pub mod forward;
 pub mod inverse;
 pub mod jacobian;
+pub mod linkage;
 pub mod parts;
 pub mod path;
 pub mod pose;

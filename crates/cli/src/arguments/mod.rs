@@ -41,7 +41,7 @@ pub struct Arguments {
 /// The verbs.
 #[derive(Subcommand)]
 pub enum Command {
-    /// List the robots of the catalogue, and the trees that come with the program
+    /// List the robots of the catalogue, and the trees and closed loops that come with the program
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),
@@ -111,6 +111,10 @@ pub struct RobotArguments {
     /// The link or frame at which the chain ends; the leaf with the most joints otherwise
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
+    /// How closed loops are assembled: the name of a mode in the robot file, or signs as `show` prints them, as in `--mode x` or
+    /// `--mode "+-"`; the first that is named otherwise
+    #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
+    pub mode: Option<String>,
     /// Take the decimals of angles in a URDF or MJCF as they are: 1.5708 is not read as 90°
     #[arg(long)]
     pub as_written: bool,

@@ -6,11 +6,12 @@ use crate::commands::report::put;
 use crate::failure::Failure;
 use crate::load::{self, Around, Tree};
 use crate::terminal::{note, words};
+use denavit::closure::Loops;
 use denavit::description::{
-    Alone, AxesAs, Convention, Decimals, Described, Description, Format, Joint, Mechanism, NoPar, NotNamed,
-    Part, Row, RowTree, TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table,
-    read_table_robot, read_toml, read_urdf, refused_masses, write_axes, write_mjcf, write_par, write_table,
-    write_toml, write_tree, write_tree_table, write_urdf,
+    Alone, AxesAs, Convention, Decimals, Described, Description, Format, Joint, Linkage, Mechanism, NoPar,
+    NotNamed, Part, Row, RowTree, TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table,
+    read_table_robot, read_toml, read_urdf, refused_masses, write_axes, write_linkage, write_linkage_par,
+    write_mjcf, write_par, write_table, write_toml, write_tree, write_tree_table, write_urdf,
 };
 use denavit::mechanism::{COMPARED, Chains, Comparison, compare, compare_chains};
 use denavit_symbolic::Expr;
@@ -28,6 +29,13 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     let is_of_bodies = matches!(arguments.to, ConvertFormat::Urdf | ConvertFormat::Mjcf);
     if arguments.whole && !is_whole && !is_of_bodies && table_kind(arguments.to).is_none() {
         return Err(Failure::Usage("--whole is for urdf, mjcf, markdown, latex and csv".into()));
+    }
+    if is_whole
+        && arguments.robot.base.is_none()
+        && arguments.robot.tip.is_none()
+        && let Some(closed) = load::linkage(&arguments.robot)?
+    {
+        return linkage(&closed, arguments);
     }
     if (is_whole || arguments.whole)
         && let Some(whole) = load::mechanism(&arguments.robot)?
@@ -53,6 +61,55 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
         answer(arguments, &robot.name, &text, &left, &how)?;
     }
     said(how)
+}
+
+/// All of a tree with closed loops, written as rows and closures.
+fn linkage(closed: &Linkage, arguments: &ConvertArguments) -> Result<(), Failure> {
+    if arguments.written_as.is_some_and(|to| Convention::from(to) != Convention::Khalil) {
+        return Err(Failure::Usage("--as: a tree stands in the convention khalil".into()));
+    }
+    if arguments.json {
+        return Err(Failure::Unsupported("--json of a whole tree with closed loops".into()));
+    }
+    left_out(&closed.all_rows(), false, arguments.to);
+    let text = match arguments.to {
+        ConvertFormat::Par => write_linkage_par(closed).map_err(no_par)?.text,
+        _ => write_linkage(closed),
+    };
+    put(&arguments.output, text.as_bytes())?;
+    let read = |decimals| match arguments.to {
+        ConvertFormat::Par => read_par(&text, decimals).ok(),
+        _ => read_robot(&text).ok(),
+    };
+    // What is read back has the same loops with the same equations.
+    let back = read(Decimals::Meant).and_then(|(back, _)| match back {
+        Described::Linkage(back) => Some(back),
+        _ => None,
+    });
+    let same = back.is_some_and(|back| same_loops(closed, &back));
+    note(match same {
+        true => "note: read back, its loops close where these do (compared in numbers)",
+        false => "warning: read back, its loops do not close where these do",
+    });
+    Ok(())
+}
+
+/// How many configurations are compared.
+const CONFIGURATIONS: usize = 32;
+
+/// Whether two linkages have the same assemblies at configurations here and there: their number, and their passive joints.
+fn same_loops(a: &Linkage, b: &Linkage) -> bool {
+    let (Ok(a), Ok(b)) = (Loops::new(a), Loops::new(b)) else { return false };
+    if a.driven() != b.driven() || a.passive() != b.passive() {
+        return false;
+    }
+    let mut random = denavit::random::Random(1);
+    (0..CONFIGURATIONS).all(|_| {
+        let q: Vec<f64> = a.driven().iter().map(|_| 2.0 * random.unit() - 1.0).collect();
+        let (x, y) = (a.assemblies(&q), b.assemblies(&q));
+        let near = |(p, o): (&f64, &f64)| ((p - o) / 2.0).sin().abs() < 1e-9;
+        x.len() == y.len() && x.iter().zip(&y).all(|(x, y)| x.passive.iter().zip(&y.passive).all(near))
+    })
 }
 
 /// How what was written is what it was made of.
@@ -201,7 +258,7 @@ fn written(
             let file = write_par(&converted.as_tree()).map_err(no_par)?;
             let (copy, end) = (file.text.clone(), file.last.to_string());
             let back = move |decimals| {
-                let (tree, _) = read_par(&copy, decimals).ok()?;
+                let tree = read_par(&copy, decimals).ok()?.0.tree()?;
                 Some(tree.chain(None, Some(&end), convention).ok()?.description)
             };
             Written { text: file.text, back: Back::ByDecimals(Box::new(back)) }
@@ -277,7 +334,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
     }
     let read = |decimals| {
         let described = match (arguments.to, kind) {
-            (ConvertFormat::Par, _) => return read_par(&text, decimals).ok().map(|r| r.0),
+            (ConvertFormat::Par, _) => return read_par(&text, decimals).ok()?.0.tree(),
             (_, Some(kind)) => read_table_robot(&text, kind, &TableOptions::default()),
             _ => read_robot(&text),
         };
@@ -285,6 +342,7 @@ fn tree(whole: &Tree, arguments: &ConvertArguments) -> Result<(), Failure> {
             Described::Tree(tree) => Some(*tree),
             // A table without a branch is one chain.
             Described::Chain(chain) => Some(chain.as_tree()),
+            Described::Linkage(_) => None,
         }
     };
     let compared = |decimals| Some(compare_chains(whole.as_ref(), &read(decimals)?, &named));

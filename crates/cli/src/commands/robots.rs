@@ -1,15 +1,15 @@
-//! `denavit robots`: the catalogue, and the structures beside it.
+//! `denavit robots`: the catalogue, and the structures and linkages beside it.
 
 use crate::arguments::RobotsArguments;
 use crate::failure::Failure;
 use crate::terminal::{Align, table};
 use denavit::catalogue;
-use denavit::description::{Description, RowTree};
-use denavit_wire::catalogue::{Catalogue, Structure};
+use denavit::description::{Description, Linkage, RowTree};
+use denavit_wire::catalogue::{Catalogue, Closed, Structure};
 use denavit_wire::robot::joints;
 use std::io::Write;
 
-/// Lists the catalogue and the structures.
+/// Lists the catalogue, the structures and the linkages.
 ///
 /// # Errors
 /// If nothing can be written.
@@ -24,13 +24,20 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .filter_map(|name| Some((name, catalogue::structure(name)?)))
         .filter(|(name, t)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &t.name)))
         .collect();
+    let linkages: Vec<(&str, Linkage)> = catalogue::linkages()
+        .into_iter()
+        .filter_map(|name| Some((name, catalogue::linkage(name)?)))
+        .filter(|(name, l)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &l.tree.name)))
+        .collect();
     let mut out = anstream::stdout();
-    if let (true, Some(text)) = (robots.is_empty() && structures.is_empty(), &arguments.filter) {
+    let is_empty = robots.is_empty() && structures.is_empty() && linkages.is_empty();
+    if let (true, Some(text)) = (is_empty, &arguments.filter) {
         return Err(Failure::No(format!("no robot of the catalogue matches `{text}`")));
     }
     if arguments.json {
         let trees = structures.iter().map(|(name, tree)| (*name, tree));
-        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)), trees);
+        let closed = linkages.iter().map(|(name, linkage)| (*name, linkage));
+        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)), trees, closed);
         writeln!(out, "{}", denavit_wire::text(&list))?;
         return Ok(());
     }
@@ -49,6 +56,16 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .collect();
     if !rows.is_empty() {
         write!(out, "{gap}{}", table(&["name", "tree", "joints", "tips"], &[Align::Left; 4], &rows))?;
+    }
+    let gap = if robots.is_empty() && structures.is_empty() { "" } else { "\n" };
+    let rows: Vec<Vec<String>> = linkages
+        .iter()
+        .map(|(name, linkage)| Closed::of(name, linkage))
+        .map(|c| vec![c.name, c.title, c.driven.to_string(), c.passive.to_string(), c.loops.to_string()])
+        .collect();
+    if !rows.is_empty() {
+        let header = ["name", "closed loops", "driven", "passive", "loops"];
+        write!(out, "{gap}{}", table(&header, &[Align::Left; 5], &rows))?;
     }
     Ok(())
 }

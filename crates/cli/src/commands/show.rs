@@ -1,12 +1,15 @@
 //! `denavit show`: the table, and what is special about the arm.
 
 use crate::arguments::ShowArguments;
-use crate::commands::fk::{configuration, without_values};
+use crate::commands::fk::{configuration, linkage, without_values};
 use crate::commands::report::put;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, NAME, note, styled, table, words};
-use denavit::description::{Description, JointKind, Measure, write_toml};
+use denavit::closure::Loops;
+use denavit::description::{
+    Convention, Description, JointKind, Linkage, Measure, Row, write_linkage, write_toml,
+};
 use denavit::geometry::Transform;
 use denavit::structure::{Relation, Structure};
 use denavit_report::document::plain;
@@ -24,6 +27,9 @@ use std::path::Path;
 /// # Errors
 /// If there is no such robot or nothing can be written.
 pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
+    if let Some(closed) = load::without_chain(&arguments.robot)? {
+        return without_chain(arguments, &closed);
+    }
     let mut description = load::robot(&arguments.robot)?;
     if let Some(to) = arguments.to {
         let conversion = description.converted(to.into());
@@ -40,7 +46,59 @@ pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
         writeln!(out, "{}", denavit_wire::text(&Robot::of(&description)))?;
     } else {
         write!(out, "{}{}{}", title(&description), dh_table(&description), structure(&description))?;
+        if let Some(closed) = load::linkage(&arguments.robot)? {
+            let loops = Loops::new(&closed).ok();
+            write!(out, "{}", linkage::about(&closed, loops.as_ref()))?;
+        }
     }
+    Ok(())
+}
+
+/// Shows closed loops that are no serial chain: the rows of their tree, and how they close.
+fn without_chain(arguments: &ShowArguments, closed: &Linkage) -> Result<(), Failure> {
+    let given = [
+        (arguments.json, "--json"),
+        (arguments.figure.is_some(), "--figure"),
+        (arguments.to.is_some(), "--as"),
+    ];
+    if let Some((_, option)) = given.into_iter().find(|g| g.0) {
+        return Err(Failure::Unsupported(format!("{option} for closed loops that are no serial chain")));
+    }
+    let mut out = anstream::stdout();
+    if arguments.toml {
+        write!(out, "{}", write_linkage(closed))?;
+        return Ok(());
+    }
+    let d = closed.all_rows();
+    let (driven, passive) = (closed.driven().len(), closed.passive().len());
+    let loops = closed.closures.len();
+    writeln!(
+        out,
+        "{}: {driven} driven and {passive} passive joints, {loops} closed loop{}",
+        styled(&d.name, HEADING),
+        if loops == 1 { "" } else { "s" }
+    )?;
+    if let Some(source) = &d.source {
+        writeln!(out, "{}", styled(source, FAINT))?;
+    }
+    let rows = closed.tree.rows.iter().zip(&closed.tree.after).enumerate();
+    let on = |a: Option<usize>| a.map_or("base".into(), |a| closed.tree.frame_name(a));
+    let line = |name: String, after: String, row: &Row| {
+        let cells = Convention::Khalil.order().iter().map(|c| cell(c.of(row), c.turns()));
+        [vec![name, after], cells.collect()].concat()
+    };
+    let mut lines: Vec<Vec<String>> =
+        rows.map(|(j, (row, after))| line(closed.tree.frame_name(j), on(*after), row)).collect();
+    for (k, c) in closed.closures.iter().enumerate() {
+        lines.push(line(format!("{} |", closed.loop_name(k)), on(c.left.after), &c.left.row));
+        lines.push(line(format!("| {}", closed.loop_name(k)), on(c.right.after), &c.right.row));
+    }
+    let letters = Convention::Khalil.order().iter().map(|c| c.letter(Convention::Khalil));
+    let header: Vec<&str> = ["frame", "on"].into_iter().chain(letters).collect();
+    write!(out, "\n{}", table(&header, &vec![Align::Left; header.len()], &lines))?;
+    write!(out, "{}", parameters(&d))?;
+    let loops = Loops::new(closed).ok();
+    write!(out, "{}", linkage::about(closed, loops.as_ref()))?;
     Ok(())
 }
 
@@ -128,6 +186,12 @@ pub fn dh_table(d: &Description) -> String {
     for (what, x) in [("base", &d.base), ("tool", &d.tool)] {
         text += &placement(what, x);
     }
+    text + &parameters(d)
+}
+
+/// The values of the parameters.
+fn parameters(d: &Description) -> String {
+    let mut text = String::new();
     if !d.parameters.is_empty() {
         let values: Vec<String> = d
             .parameters

@@ -13,6 +13,7 @@ mod exercise;
 mod generate;
 mod ik;
 mod languages;
+mod linkages;
 mod motion;
 mod stream;
 mod trees;

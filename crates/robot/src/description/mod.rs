@@ -14,6 +14,7 @@ mod held;
 mod inertia;
 mod joints;
 mod lines;
+pub mod linkage;
 mod masses;
 mod mjcf;
 mod named;
@@ -47,11 +48,13 @@ pub use held::{Format, Part};
 pub use lines::{
     Agreement, AxisAtRest, ChainAtRest, Named, NotNamed, NotPlaced, Placed, compare_screws, same_screws,
 };
+pub use linkage::{ClosedChain, Closure, Linkage, NotCoupled, write_linkage_par};
 pub use mjcf::{read_mjcf, refused_masses, write_mjcf};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{
-    AxesAs, Described, MAX_BYTES, MAX_ROWS, read_robot, read_toml, write_axes, write_toml, write_tree,
+    AxesAs, Described, MAX_BYTES, MAX_ROWS, read_robot, read_toml, write_axes, write_linkage, write_toml,
+    write_tree,
 };
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};

@@ -6,6 +6,7 @@
 
 use super::cell::variable_number;
 use super::diagnostic::{Diagnostics, nearest};
+use super::linkage::passive_number;
 use super::{Convention, JointKind, Row, Variable};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol, equal};
 use std::ops::{Range, RangeInclusive};
@@ -68,21 +69,78 @@ impl Cells {
     }
 }
 
+/// The letter of joint variables, each with a count of its own.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Letter {
+    /// `q1`, `q2`, …: joints that move by themselves.
+    Driven,
+    /// `p1`, `p2`, …: joints that closures determine.
+    Passive,
+}
+
+impl Letter {
+    /// The number of the variable of this letter that a name is.
+    fn number(self, name: &str) -> Option<usize> {
+        match self {
+            Letter::Driven => variable_number(name),
+            Letter::Passive => passive_number(name),
+        }
+    }
+
+    fn name(self, number: usize) -> String {
+        format!("{}{number}", if self == Letter::Driven { 'q' } else { 'p' })
+    }
+}
+
 /// Finds each row's own variable; reports every breach of the rule.
 pub(super) fn assign_variables(
     rows: &[Cells],
     convention: Convention,
     out: &mut Diagnostics,
 ) -> Vec<Option<Variable>> {
+    assign(rows, Letter::Driven, true, convention, out)
+}
+
+/// As [`assign_variables`], for rows of a linkage, which have driven and passive variables.
+pub(super) fn assign_all_variables(
+    rows: &[Cells],
+    convention: Convention,
+    out: &mut Diagnostics,
+) -> Vec<Option<Variable>> {
+    let driven = assign(rows, Letter::Driven, false, convention, out);
+    let passive = assign(rows, Letter::Passive, false, convention, out);
+    let both = |((row, q), p): ((&Cells, Option<Variable>), Option<Variable>)| {
+        if let (Some(q), Some(p)) = (q, p) {
+            let (q, p) = (q.symbol.name(), p.symbol.name());
+            out.error(
+                row.span.clone(),
+                format!("two joint variables of its own in one row, `{q}` and `{p}`"),
+            )
+            .hint("a row is one joint, driven (q) or passive (p)");
+        }
+        q.or(p)
+    };
+    rows.iter().zip(driven).zip(passive).map(both).collect()
+}
+
+/// The variables of a letter; `says_followers` where rows are noted that only repeat others.
+fn assign(
+    rows: &[Cells],
+    letter: Letter,
+    says_followers: bool,
+    convention: Convention,
+    out: &mut Diagnostics,
+) -> Vec<Option<Variable>> {
+    let joint_variables = |cell: &Cell| joint_variables(cell, letter);
     let mut next = 1;
     let mut variables = vec![];
     for row in rows {
         let (x, z) = (convention.length_x(), convention.length_z());
         for (cell, name) in [(&row.a, x), (&row.alpha, "alpha"), (&row.gamma, "gamma"), (&row.b, "b")] {
             for (q, span) in joint_variables(cell) {
-                out.error(span, format!("the joint variable `q{q}` in `{name}`")).hint(format!(
-                    "a joint turns or slides along z: its variable belongs in `theta` or `{z}`"
-                ));
+                out.error(span, format!("the joint variable `{}` in `{name}`", letter.name(q))).hint(
+                    format!("a joint turns or slides along z: its variable belongs in `theta` or `{z}`"),
+                );
             }
         }
         let mut new: Vec<(usize, Range<usize>)> = joint_variables(&row.theta);
@@ -93,36 +151,48 @@ pub(super) fn assign_variables(
         match (first, last) {
             (Some(first), Some(last)) if first != last => {
                 let span = new.iter().find(|v| v.0 == last).map_or(row.span.clone(), |v| v.1.clone());
-                out.error(span, format!("two new joint variables in one row, `q{first}` and `q{last}`"))
+                out.error(span, format!(
+                    "two new joint variables in one row, `{}` and `{}`",
+                    letter.name(first),
+                    letter.name(last)
+                ))
                     .hint("a row is one joint: give the second a row of its own; only variables of rows above may be added");
             }
             (Some(first), _) if first > next => {
+                let (first, next) = (letter.name(first), letter.name(next));
                 let (message, hint) = (
-                    format!("`q{first}` comes before `q{next}`"),
-                    format!("variables count the rows that have one: this row's is `q{next}`"),
+                    format!("`{first}` comes before `{next}`"),
+                    format!("variables count the rows that have one: this row's is `{next}`"),
                 );
                 out.error(new[0].1.clone(), message).hint(hint);
             }
-            (Some(_), _) => own = own_variable(row, next, z, out),
+            (Some(_), _) => own = own_variable(row, letter, next, z, out),
             (None, _) => {}
         }
-        if first.is_none() {
+        if first.is_none() && says_followers {
             follows(row, out);
         }
-        check_linear(row, z, own.is_some() || first.is_none(), out);
+        check_linear(row, letter, z, own.is_some() || first.is_none(), out);
         next = last.map_or(next, |q| q + 1);
         variables.push(own);
     }
     variables
 }
 
-/// The variable `q{number}` of a row in which it occurs.
-fn own_variable(row: &Cells, number: usize, z: &str, out: &mut Diagnostics) -> Option<Variable> {
-    let symbol = Symbol::new(&format!("q{number}"));
-    let occurs = |c: &Cell| joint_variables(c).into_iter().find(|v| v.0 == number);
+/// The variable of a number and a letter, of a row in which it occurs.
+fn own_variable(
+    row: &Cells,
+    letter: Letter,
+    number: usize,
+    z: &str,
+    out: &mut Diagnostics,
+) -> Option<Variable> {
+    let name = letter.name(number);
+    let symbol = Symbol::new(&name);
+    let occurs = |c: &Cell| joint_variables(c, letter).into_iter().find(|v| v.0 == number);
     match (occurs(&row.theta), occurs(&row.d)) {
         (Some(_), Some((_, span))) => {
-            out.error(span, format!("`q{number}` both in `theta` and in `{z}`"))
+            out.error(span, format!("`{name}` both in `theta` and in `{z}`"))
                 .hint("a joint turns or slides; a screw joint is not supported");
             None
         }
@@ -135,7 +205,7 @@ fn own_variable(row: &Cells, number: usize, z: &str, out: &mut Diagnostics) -> O
 /// Says so where a row only repeats variables of other rows.
 fn follows(row: &Cells, out: &mut Diagnostics) {
     for cell in [&row.theta, &row.d] {
-        if let Some((q, span)) = joint_variables(cell).into_iter().next() {
+        if let Some((q, span)) = joint_variables(cell, Letter::Driven).into_iter().next() {
             out.note(span, format!("this row has no joint variable of its own: it follows `q{q}`"));
         }
     }
@@ -152,9 +222,9 @@ fn is_affine(e: Expr, variable: Symbol) -> bool {
 }
 
 /// Every joint variable stands in a sum, with a number other than 0 as its factor.
-fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
+fn check_linear(row: &Cells, letter: Letter, z: &str, report: bool, out: &mut Diagnostics) {
     for (cell, name) in [(&row.theta, "theta"), (&row.d, z)] {
-        let variables = joint_variables(cell);
+        let variables = joint_variables(cell, letter);
         if variables.is_empty() || !report {
             continue;
         }
@@ -164,27 +234,28 @@ fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
             .iter()
             .filter(|t| t.0.as_symbol().is_none())
             .flat_map(|t| t.0.symbols())
-            .filter(|s| variable_number(&s.name()).is_some())
+            .filter(|s| letter.number(&s.name()).is_some())
             .collect();
         let factors = Angle::of(cell.expr).terms;
         for (q, span) in variables {
-            let symbol = Symbol::new(&format!("q{q}"));
+            let q = letter.name(q);
+            let symbol = Symbol::new(&q);
             if nonlinear.contains(&symbol) {
                 let why = if is_affine(cell.expr, symbol) {
-                    format!("the factor of `q{q}` in `{name}` is no rational number")
+                    format!("the factor of `{q}` in `{name}` is no rational number")
                 } else {
-                    format!("`{name}` is not linear in `q{q}`")
+                    format!("`{name}` is not linear in `{q}`")
                 };
-                out.error(span, why).hint(format!("a joint variable may have a rational number as its factor and an offset: `{name} = \"2*q{q} + 90 deg\"`"));
+                out.error(span, why).hint(format!("a joint variable may have a rational number as its factor and an offset: `{name} = \"2*{q} + 90 deg\"`"));
             } else if !summands.contains(&symbol) {
-                out.error(span, format!("`q{q}` cancels in `{name}`"));
+                out.error(span, format!("`{q}` cancels in `{name}`"));
             } else if let Some((_, k)) = factors.iter().find(|t| t.0.as_symbol() == Some(symbol))
                 && !FACTORS.contains(&k.to_f64().abs())
             {
                 out.error(
                     span,
                     format!(
-                        "the factor of `q{q}` is out of the range {:e} to {:e}",
+                        "the factor of `{q}` is out of the range {:e} to {:e}",
                         FACTORS.start(),
                         FACTORS.end()
                     ),
@@ -195,11 +266,11 @@ fn check_linear(row: &Cells, z: &str, report: bool, out: &mut Diagnostics) {
     }
 }
 
-/// The joint variables in a cell, each once.
-fn joint_variables(cell: &Cell) -> Vec<(usize, Range<usize>)> {
+/// The joint variables of a letter in a cell, each once.
+fn joint_variables(cell: &Cell, letter: Letter) -> Vec<(usize, Range<usize>)> {
     let mut found: Vec<(usize, Range<usize>)> = vec![];
     for (name, span) in &cell.symbols {
-        if let Some(q) = variable_number(name)
+        if let Some(q) = letter.number(name)
             && !found.iter().any(|f| f.0 == q)
         {
             found.push((q, span.clone()));

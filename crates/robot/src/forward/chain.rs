@@ -6,9 +6,9 @@
 //! read off the exact constant rotation between them, so that a turn there and back is found, and 89.99° is not.
 
 use crate::description::Description;
+use crate::geometry::parallel::{flip, parallel};
 use crate::geometry::{Axis, Rotation, Transform, Vector};
 use crate::mechanism::elements::{Elementary, elements};
-use crate::mechanism::parallel::{flip, parallel};
 use denavit_symbolic::{Angle, Expr, Symbol, readable};
 
 /// A chain of rotations about one angle each, with the displacements between them.

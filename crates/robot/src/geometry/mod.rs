@@ -9,6 +9,7 @@
 
 pub mod body;
 pub mod orientation;
+pub(crate) mod parallel;
 pub mod rotation;
 pub mod transform;
 pub mod vector;

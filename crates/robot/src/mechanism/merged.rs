@@ -1,9 +1,9 @@
 //! The walk over formulas in which parallel axes are merged before anything is multiplied.
 
 use super::elements::{Elementary, elements};
-use super::parallel::{flip, parallel};
 use super::walk::{Line, Walk};
 use crate::description::Description;
+use crate::geometry::parallel::{flip, parallel};
 use crate::geometry::{Axis, Rotation, Transform};
 use denavit_symbolic::{Expr, readable};
 

@@ -11,7 +11,6 @@ mod compared;
 pub(crate) mod elements;
 mod extent;
 mod merged;
-pub(crate) mod parallel;
 pub mod robot;
 pub mod walk;
 

@@ -197,7 +197,7 @@ impl Robot<Expr> {
     pub fn symbolic(description: &Description) -> Self {
         let variables: Vec<Symbol> = description.variables().iter().map(|v| v.symbol).collect();
         let links =
-            description.rows.iter().map(|row| link(description.convention, row, &variables)).collect();
+            description.rows.iter().map(|row| link_of(description.convention, row, &variables)).collect();
         Robot { base: description.base, links, tool: description.tool, joints: variables.len() }
     }
 }
@@ -331,7 +331,20 @@ impl Robot<f64> {
     }
 }
 
-fn link(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
+impl Link<Expr> {
+    /// The link over numbers.
+    pub(crate) fn in_numbers(&self, number: impl Fn(Expr) -> f64) -> Link<f64> {
+        let affine = |a: &Affine<Expr>| Affine {
+            offset: number(a.offset),
+            quarters: a.quarters,
+            terms: a.terms.iter().map(|&(j, k)| (j, number(k))).collect(),
+        };
+        Link::new(self.before.map(&number), affine(&self.theta), affine(&self.d), self.after.map(&number))
+    }
+}
+
+/// A row as a link of a robot that has these variables.
+pub(crate) fn link_of(convention: Convention, row: &Row, variables: &[Symbol]) -> Link<Expr> {
     let screws = row.screws(convention);
     let product = |screws: &[Screw]| {
         screws.iter().map(Screw::transform).reduce(|x, y| x * y).unwrap_or_else(Transform::identity)

@@ -46,6 +46,7 @@ fn back(d: &Description, format: Format) -> Vec<(String, Description)> {
         Format::Par => {
             let (tree, _) =
                 read_par(&write_par(&d.as_tree()).expect("a file").text, Decimals::Meant).expect("rows");
+            let tree = tree.tree().expect("a tree");
             vec![named("par", tree.chain(None, None, Convention::Khalil).expect("a chain").description)]
         }
         Format::Table => [TableKind::Markdown, TableKind::Latex, TableKind::Csv]

@@ -27,6 +27,8 @@ mod held;
 mod idealise;
 mod inverse;
 mod lines;
+mod linkages;
+mod linkages_files;
 mod mechanism;
 mod members;
 mod mjcf;

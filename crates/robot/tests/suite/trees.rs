@@ -23,7 +23,8 @@ fn shown(text: &str, findings: &[Diagnostic]) -> Vec<String> {
 
 fn par(text: &str) -> RowTree {
     let read = read_par(text, Decimals::Meant);
-    read.unwrap_or_else(|f| panic!("{}\n{text}", denavit::description::render(&f, "par", text))).0
+    let read = read.unwrap_or_else(|f| panic!("{}\n{text}", denavit::description::render(&f, "par", text)));
+    read.0.tree().expect("a tree")
 }
 
 pub fn tree(text: &str) -> RowTree {
@@ -32,7 +33,7 @@ pub fn tree(text: &str) -> RowTree {
         .0
     {
         Described::Tree(tree) => *tree,
-        Described::Chain(_) => panic!("a tree is expected"),
+        Described::Chain(_) | Described::Linkage(_) => panic!("a tree is expected"),
     }
 }
 
@@ -88,8 +89,8 @@ fn what_is_wrong_with_a_par_file_has_its_place() {
             "hello\n".into(),
             &["1:1: `key = value` is expected here", "1:1: there are no geometric parameters"],
         ),
-        (changed("NJ = 2", "NJ = 3"), &["2:6: closed loops: 3 joints for 2 links"]),
-        (format!("{plain}Type = 2\n"), &["9:8: a mechanism with closed loops"]),
+        (changed("NJ = 2", "NJ = 3"), &["3:6: 3 joints for 2 links need 4 frames, not 2"]),
+        (format!("{plain}Type = 2\n"), &["9:8: a mechanism with closed loops, of 2 joints for 2 links"]),
         (changed("ant = {0,1}", "ant = {0,2}"), &["4:10: frame 2 stands on frame 2, which comes later"]),
         (
             changed("ant = {0,1}", "ant = {0,x}"),
@@ -120,7 +121,7 @@ fn what_is_wrong_with_a_par_file_has_its_place() {
                 .replace("d = {0,D2}", "d = {q1+}")
                 + "Z = {1}\nZ = {2}\n",
             &[
-                "2:6: closed loops: 3 joints for 2 links",
+                "3:6: 3 joints for 2 links need 4 frames, not 2",
                 "4:10: an antecedent is the number of a frame, 0 for the base",
                 "8:1: `d` has 1 values, others have 2",
                 "8:8: something is missing at the end",
@@ -152,7 +153,7 @@ fn soup_of_par_files_does_no_harm() {
         let count = 1 + (random.unit() * 40.0) as usize;
         let text: String = (0..count).map(|_| PIECES[(random.unit() * 22.0) as usize % 22]).collect();
         if let Ok((tree, _)) = read_par(&text, Decimals::Meant) {
-            let _ = tree.chain(None, None, Convention::Standard);
+            let _ = tree.tree().map(|t| t.chain(None, None, Convention::Standard));
         }
     }
 }

@@ -36,7 +36,7 @@ pub fn answers(name: &str) -> Vec<(&'static str, String)> {
     let numbers = Robot::numeric(&d).expect("everything has a value");
     let q = regular_configuration(&d, vec![0.1; numbers.joints]);
     let mut all = vec![
-        ("robots", text(&Catalogue::of([(name, &d)], []))),
+        ("robots", text(&Catalogue::of([(name, &d)], [], []))),
         ("show", text(&robot::Robot::of(&d))),
         ("view", text(&view::Served { schema: Schema, url: "http://127.0.0.1/".into() })),
         ("line", text(&finding::BadLine { error: "no JSON", line: 3, schema: Schema })),

@@ -51,6 +51,12 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if let Some(text) = &arguments.gravity {
         description.gravity = Some(gravity(text)?);
     }
+    if let Around::Rows(chain) = &around
+        && let Some(closed) = chain.closed.as_ref().filter(|c| !c.beside.is_empty())
+    {
+        let beside = closed.beside.join(", ");
+        note(&format!("warning: this is the chain alone: the masses of {beside} have no part in it"));
+    }
     let held = around.held_joints();
     if !held.is_empty() {
         note(&format!(

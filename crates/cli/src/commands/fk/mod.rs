@@ -1,6 +1,7 @@
 //! `denavit fk`: poses in numbers.
 
 mod answer;
+pub mod linkage;
 mod stream;
 pub mod tree;
 
@@ -26,6 +27,9 @@ use std::io::Write;
 /// # Errors
 /// If the robot or the configuration cannot be read, a parameter has no value, or nothing can be written.
 pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
+    if let Some(closed) = load::without_chain(&arguments.robot)? {
+        return linkage::run(arguments, &closed);
+    }
     if arguments.symbolic {
         let format = if arguments.json { Format::Json } else { Format::Terminal };
         return derive::matrix_only(&arguments.robot, orientation(arguments)?, format);

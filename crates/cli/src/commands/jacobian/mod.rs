@@ -1,6 +1,7 @@
 //! `denavit jacobian`: Jacobians, velocities and forces in numbers; formulas and singularities.
 
 mod answer;
+mod linkage;
 mod report;
 mod stream;
 mod symbolic;
@@ -25,6 +26,9 @@ use std::io::Write;
 /// # Errors
 /// If the robot, the configuration or an option cannot be read, a parameter has no value, or nothing can be written.
 pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
+    if let Some(closed) = load::without_chain(&arguments.robot)? {
+        return linkage::run(arguments, &closed);
+    }
     let description = load::robot(&arguments.robot)?;
     if arguments.frame == "shortest" && arguments.at.is_some() {
         return Err(Failure::Usage("--frame shortest chooses the point itself; leave --at away".into()));

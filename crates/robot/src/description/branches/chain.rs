@@ -3,7 +3,7 @@
 use super::{BASE, NamedFrame, RowTree};
 use crate::description::Unweighed;
 use crate::description::diagnostic::nearest;
-use crate::description::{Agreement, Convention, Description, MAX_ROWS, NoChain, Row, Variable};
+use crate::description::{Agreement, ClosedChain, Convention, Description, MAX_ROWS, NoChain, Row, Variable};
 use crate::geometry::Transform;
 use denavit_symbolic::{Angle, Expr, Symbol};
 
@@ -24,6 +24,10 @@ pub struct RowChain {
     pub unweighed: Option<Unweighed>,
     /// Frames with names that do not move on those of its table, where these are known.
     pub frames: Vec<NamedFrame>,
+    /// The variable of the tree that each joint variable of the chain is.
+    pub variables: Vec<Symbol>,
+    /// What is known of it if it was taken out of a linkage.
+    pub closed: Option<Box<ClosedChain>>,
 }
 
 /// A frame of a tree: its row, and its pose there.
@@ -46,10 +50,7 @@ impl RowTree {
     ) -> Result<RowChain, NoChain> {
         let from = from.map_or_else(|| BASE.into(), |name| self.named(name));
         let start = self.place(&from)?;
-        let to = match to.or(self.tip.as_deref()) {
-            Some(name) => self.named(name),
-            None => self.farthest(start.0)?,
-        };
+        let to = self.end_from(start.0, to)?;
         let end = self.place(&to)?;
         let way = self.way(end.0);
         let below = match start.0 {
@@ -58,7 +59,7 @@ impl RowTree {
         };
         let base = if from == *BASE { self.base } else { start.1.inverse() };
         let straight = below.and_then(|rows| Some((rows, self.straight(rows, base, end)?)));
-        if let Some((rows, mut d)) = straight {
+        if let Some((rows, (mut d, variables))) = straight {
             let (held, unweighed) = self.weigh_branches(rows, &mut d.rows);
             let held = held.into_iter().map(|j| self.frame_name(j)).collect();
             let description = d.converted(convention).description;
@@ -70,14 +71,32 @@ impl RowTree {
                 Convention::Khalil => self.frames_on(rows, start.0.is_none()),
                 _ => vec![],
             };
-            return Ok(RowChain { description, from, to, agreement: None, held, unweighed, frames });
+            let (agreement, closed) = (None, None);
+            return Ok(RowChain {
+                description,
+                from,
+                to,
+                agreement,
+                held,
+                unweighed,
+                frames,
+                variables,
+                closed,
+            });
         }
         let mechanism = self.mechanism().map_err(|missing| NoChain::NeedsValues(missing.parameters))?;
         let chain = mechanism.chain(Some(&from), Some(&to), convention)?;
         let held = chain.held.iter().map(|&j| mechanism.joints[j].name.clone()).collect();
         let frames = mechanism.frames(&chain);
         let unweighed = chain.unweighed;
+        let variable = |&j: &usize| {
+            let row = (0..self.rows.len()).find(|&row| self.frame_name(row) == mechanism.joints[j].name)?;
+            Some(self.variables()[self.motions(&self.rows[row]).first()?.1])
+        };
+        let variables: Option<Vec<Symbol>> = chain.joints.iter().map(variable).collect();
         Ok(RowChain {
+            variables: variables.unwrap_or_default(),
+            closed: None,
             description: chain.description,
             from,
             to,
@@ -86,6 +105,27 @@ impl RowTree {
             unweighed,
             frames,
         })
+    }
+
+    /// What the frame is called at which the chain ends that begins at one: its name, or where it is not told the tip of the tree, or else
+    /// the frame with the most joints on the way.
+    pub(crate) fn end(&self, from: Option<&str>, to: Option<&str>) -> Result<String, NoChain> {
+        let from = from.map_or_else(|| BASE.into(), |name| self.named(name));
+        let to = self.end_from(self.place(&from)?.0, to)?;
+        self.place(&to)?;
+        Ok(to)
+    }
+
+    fn end_from(&self, start: Option<usize>, to: Option<&str>) -> Result<String, NoChain> {
+        match to.or(self.tip.as_deref()) {
+            Some(name) => Ok(self.named(name)),
+            None => self.farthest(start),
+        }
+    }
+
+    /// The row that a frame stands on, or is.
+    pub(crate) fn row_of(&self, name: &str) -> Option<usize> {
+        self.place(name).ok()?.0
     }
 
     /// The frames with names on the rows of a way, which is a table, and, if it begins there, on frame 0.
@@ -124,7 +164,7 @@ impl RowTree {
     }
 
     /// The rows from frame 0 to one.
-    pub(super) fn way(&self, row: Option<usize>) -> Vec<usize> {
+    pub(in crate::description) fn way(&self, row: Option<usize>) -> Vec<usize> {
         let mut way = vec![];
         let mut next = row;
         while let Some(j) = next {
@@ -168,8 +208,13 @@ impl RowTree {
         }
     }
 
-    /// The rows of a way down the tree as a table; nothing where a row would bring two variables with it.
-    fn straight(&self, way: &[usize], base: Transform<Expr>, end: Place) -> Option<Description> {
+    /// The rows of a way down the tree as a table, and the variables of the tree that its own are; nothing where a row would bring two variables with it.
+    fn straight(
+        &self,
+        way: &[usize],
+        base: Transform<Expr>,
+        end: Place,
+    ) -> Option<(Description, Vec<Symbol>)> {
         if way.len() > MAX_ROWS {
             return None;
         }
@@ -219,7 +264,7 @@ impl RowTree {
             Some((name.clone(), values.collect::<Option<Vec<Expr>>>()?))
         };
         let poses = self.poses.iter().filter_map(pose).collect();
-        Some(Description {
+        let description = Description {
             name: self.name.clone(),
             source: self.source.clone(),
             convention: Convention::Khalil,
@@ -229,6 +274,7 @@ impl RowTree {
             tool: end.1,
             poses,
             gravity: self.gravity,
-        })
+        };
+        Some((description, known))
     }
 }

@@ -6,13 +6,14 @@
 mod chain;
 mod masses;
 mod par;
+mod par_loops;
 mod place;
 mod write_par;
 
 pub use chain::RowChain;
 pub use par::read_par;
-pub(in crate::description) use write_par::with_frames_as_rows;
 pub use write_par::{NoPar, ParFile, write_par};
+pub(in crate::description) use write_par::{columns, with_frames_as_rows, with_plain_variables};
 
 use super::{Convention, Description, JointKind, Mechanism, MissingValue, Parameter, Row};
 use crate::geometry::Transform;

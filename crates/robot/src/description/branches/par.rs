@@ -1,28 +1,28 @@
 //! `.par` files of SYMORO and OpenSYMORO: the geometric parameters of a tree in Khalil's notation, column by column.
 //!
 //! A file holds `key = value` and `key = {value, value, …}`, with comments between `(*` and `*)`. Read are the name, `NL`, `NJ`, `NF`,
-//! `Type`, the columns `ant sigma mu gamma b alpha d theta r`, the gravity `G` and the base `Z` (4×4 by rows). A closed loop, which has
-//! more joints than links, is refused.
+//! `Type`, the columns `ant sigma mu gamma b alpha d theta r`, the gravity `G` and the base `Z` (4×4 by rows). With closed loops there
+//! are B = NJ − NL frames more for the cut joints, and B for the other sides of the cuts; μ says which joints are driven.
 
 use super::RowTree;
 use crate::description::cell::{Place, Style, is_reserved, read_cell, variable_number};
 use crate::description::decimals::{Found, name, places, recognise};
 use crate::description::diagnostic::{Diagnostic, Diagnostics, nearest};
 use crate::description::units::Quantity;
-use crate::description::{Decimals, JointKind, MAX_BYTES, MAX_ROWS, Parameter, Row, Variable};
+use crate::description::{Decimals, Described, JointKind, MAX_BYTES, MAX_ROWS, Parameter, Row, Variable};
 use crate::geometry::{Rotation, Transform, Vector};
 use denavit_symbolic::{Angle, Expr, Rational, Symbol};
 use std::ops::Range;
 
 /// A value and its place.
 #[derive(Clone, Debug)]
-struct Item<'t> {
+pub(super) struct Item<'t> {
     text: &'t str,
     span: Range<usize>,
 }
 
 /// What stands behind an equals sign.
-struct Entry<'t> {
+pub(super) struct Entry<'t> {
     key: &'t str,
     span: Range<usize>,
     items: Vec<Item<'t>>,
@@ -76,9 +76,9 @@ fn plain(key: &str) -> &str {
     COLUMNS.iter().find(is_column).copied().unwrap_or(key)
 }
 
-struct Reader<'t> {
+pub(super) struct Reader<'t> {
     text: &'t str,
-    out: Diagnostics,
+    pub(super) out: Diagnostics,
     decimals: Decimals,
     /// `(* D3 = 0.45 *)`: names and values in comments.
     values: Vec<(&'t str, Item<'t>)>,
@@ -88,7 +88,7 @@ struct Reader<'t> {
 ///
 /// # Errors
 /// All errors of the text (with the warnings and notes), in the order of the text.
-pub fn read_par(text: &str, decimals: Decimals) -> Result<(RowTree, Vec<Diagnostic>), Vec<Diagnostic>> {
+pub fn read_par(text: &str, decimals: Decimals) -> Result<(Described, Vec<Diagnostic>), Vec<Diagnostic>> {
     let mut reader = Reader { text, out: Diagnostics::default(), decimals, values: vec![] };
     if text.len() > MAX_BYTES {
         reader.out.error(0..0, format!("the text has {} bytes; {MAX_BYTES} are allowed", text.len()));
@@ -192,7 +192,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn number(&mut self, entries: &[Entry], key: &str) -> Option<(i64, Range<usize>)> {
+    pub(super) fn number(&mut self, entries: &[Entry], key: &str) -> Option<(i64, Range<usize>)> {
         let entry = entries.iter().find(|e| e.key == key)?;
         let item = entry.items.first()?;
         match item.text.parse() {
@@ -204,20 +204,10 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn tree(&mut self, entries: &[Entry<'t>]) -> Option<RowTree> {
+    fn tree(&mut self, entries: &[Entry<'t>]) -> Option<Described> {
         let (links, joints) = (self.number(entries, "NL"), self.number(entries, "NJ"));
         let frames = self.number(entries, "NF");
-        let kind = self.number(entries, "Type");
-        if let (Some((links, _)), Some((joints, span))) = (&links, &joints)
-            && joints > links
-        {
-            self.out
-                .error(span.clone(), format!("closed loops: {joints} joints for {links} links"))
-                .hint("trees are read; leave out the columns of the cut joints, and NJ is NL");
-        }
-        if let Some((2, span)) = kind {
-            self.out.error(span, "a mechanism with closed loops").hint("trees are read: Type = 0 or 1");
-        }
+        let loops = self.loops(entries, [&links, &joints, &frames]);
         let columns = COLUMNS.map(|c| entries.iter().find(|e| plain(e.key) == c));
         let ant = columns[0];
         let told = frames.or(links).map(|f| f.0);
@@ -253,17 +243,22 @@ impl<'t> Reader<'t> {
                 let quantity = if turns { Quantity::Angle } else { Quantity::Length };
                 item(column, j).map_or(Cell::zero(), |i| self.cell(i, quantity))
             });
-            let kind = self.kind(item(1, j), item(2, j));
+            let kind = self.kind(item(1, j), item(2, j), loops.is_some());
             let is_told = columns.iter().flatten().all(|e| j < e.items.len());
             let kind = kind.filter(|_| is_told);
-            rows.push(self.row(j, cells, kind, &rows, &mut parameters));
+            let is_passive = loops.is_some() && item(2, j).is_none_or(|mu| mu.text == "0");
+            let letter = if is_passive { 'p' } else { 'q' };
+            rows.push(self.row((j, letter), cells, kind, &rows, &mut parameters));
         }
+        let spans: Vec<Range<usize>> = (0..count)
+            .map(|j| columns.iter().flatten().find_map(|e| e.items.get(j)).map_or(0..0, |i| i.span.clone()))
+            .collect();
         self.give_values(&mut parameters, &rows);
         let (base, gravity) = (self.base(entries), self.gravity(entries));
         let title = self.title();
         self.say_left_out(entries);
         is_whole.then_some(())?;
-        Some(RowTree {
+        let tree = RowTree {
             name: title,
             source: None,
             parameters,
@@ -274,6 +269,10 @@ impl<'t> Reader<'t> {
             tip: None,
             poses: vec![],
             gravity,
+        };
+        Some(match loops {
+            None => Described::Tree(Box::new(tree)),
+            Some(links) => Described::Linkage(Box::new(self.linkage(tree, links, &spans)?)),
         })
     }
 
@@ -309,7 +308,7 @@ impl<'t> Reader<'t> {
     }
 
     /// σ and μ.
-    fn kind(&mut self, sigma: Option<&Item>, mu: Option<&Item>) -> Option<JointKind> {
+    fn kind(&mut self, sigma: Option<&Item>, mu: Option<&Item>, is_closed: bool) -> Option<JointKind> {
         let kind = match sigma.map(|s| s.text) {
             Some("0") | None => Some(JointKind::Revolute),
             Some("1") => Some(JointKind::Prismatic),
@@ -324,7 +323,7 @@ impl<'t> Reader<'t> {
             Some(mu) if mu.text != "0" && mu.text != "1" => {
                 self.out.error(mu.span.clone(), "μ is 1 (with a motor) or 0");
             }
-            Some(mu) if mu.text == "0" && kind.is_some() => {
+            Some(mu) if mu.text == "0" && kind.is_some() && !is_closed => {
                 self.out.note(mu.span.clone(), "a joint without motor: it moves by itself here");
             }
             _ => {}
@@ -369,10 +368,10 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// A row; its variable is the symbol that its moving cell adds.
+    /// A row, the variable of which has this letter; it is the symbol that its moving cell adds.
     fn row(
         &mut self,
-        j: usize,
+        (j, letter): (usize, char),
         cells: [Cell; 6],
         kind: Option<JointKind>,
         above: &[Row],
@@ -385,7 +384,8 @@ impl<'t> Reader<'t> {
         };
         let mut variable = None;
         let mut own: Option<Symbol> = None;
-        let number = above.iter().filter(|r| r.variable.is_some()).count() + 1;
+        let has_letter = |r: &&Row| r.variable.is_some_and(|v| v.symbol.name().starts_with(letter));
+        let number = above.iter().filter(has_letter).count() + 1;
         if let (Some(kind), Some(at)) = (kind, moving) {
             let cell = &cells[at];
             let summands: Vec<Symbol> =
@@ -408,7 +408,7 @@ impl<'t> Reader<'t> {
                     )
                     .hint(format!("{letter} = {{…, th{}, …}}, or sigma 2 for a frame that is fixed", j + 1));
             }
-            variable = own.map(|_| Variable { symbol: Symbol::new(&format!("q{number}")), kind });
+            variable = own.map(|_| Variable { symbol: Symbol::new(&format!("{letter}{number}")), kind });
         }
         for cell in &cells {
             for (name, span) in &cell.symbols {
@@ -426,7 +426,7 @@ impl<'t> Reader<'t> {
                 parameters.push(Parameter { symbol, value: None });
             }
         }
-        let q = Expr::symbol(&format!("q{number}"));
+        let q = Expr::symbol(&format!("{letter}{number}"));
         let e = |i: usize| cells[i].expr.substitute(|s| (Some(s) == own).then_some(q));
         let elsewhere = (0..6)
             .filter(|i| Some(*i) != moving)

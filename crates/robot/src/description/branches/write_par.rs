@@ -52,14 +52,25 @@ pub struct ParFile {
 /// # Errors
 /// If a joint follows others.
 pub fn write_par(tree: &RowTree) -> Result<ParFile, NoPar> {
-    let (tree, frames) = &with_plain_variables(tree)?;
+    let (tree, frames) = with_plain_variables(tree)?;
+    let n = tree.rows.len();
+    let is_branched = tree.after.iter().enumerate().any(|(j, a)| *a != j.checked_sub(1));
+    let counts = [n, n, n, usize::from(is_branched)];
+    Ok(ParFile { text: columns(&tree, counts, |_| true), frames, last: n })
+}
+
+/// The text of a file: `NL`, `NJ`, `NF` and `Type`, then the rows, which have their variables alone in θ or r.
+pub(in crate::description) fn columns(
+    tree: &RowTree,
+    [links, joints, frames, kind]: [usize; 4],
+    is_driven: impl Fn(usize) -> bool,
+) -> String {
     let n = tree.rows.len();
     let mut out = format!("(* Robotname = '{}' *)\n", tree.name.replace(['\'', '*', '\n'], " "));
     for p in tree.parameters.iter().filter_map(|p| Some((p.symbol, p.value?))) {
         let _ = writeln!(out, "(* {} = {} *)", p.0.name(), text(p.1, false));
     }
-    let is_branched = tree.after.iter().enumerate().any(|(j, a)| *a != j.checked_sub(1));
-    let _ = writeln!(out, "NL = {n}\nNJ = {n}\nNF = {n}\nType = {}\n", i32::from(is_branched));
+    let _ = writeln!(out, "NL = {links}\nNJ = {joints}\nNF = {frames}\nType = {kind}\n");
     out.push_str("(* Geometric parameters *)\n");
     let names: Vec<String> = (0..n).map(|j| variable_name(tree, j)).collect();
     let named = |e: Expr| {
@@ -82,7 +93,7 @@ pub fn write_par(tree: &RowTree) -> Result<ParFile, NoPar> {
     column("r", &|j| text(named(rows[j].d), false));
     column("gamma", &|j| text(rows[j].gamma, true));
     column("alpha", &|j| text(rows[j].alpha, true));
-    column("mu", &|j| i32::from(kind(j).is_some()).to_string());
+    column("mu", &|j| i32::from(kind(j).is_some() && is_driven(j)).to_string());
     column("theta", &|j| text(named(rows[j].theta), true));
     if let Some(g) = &tree.gravity {
         let all: Vec<String> = g.iter().map(|e| text(*e, false)).collect();
@@ -93,7 +104,7 @@ pub fn write_par(tree: &RowTree) -> Result<ParFile, NoPar> {
         let _ = writeln!(out, "\n(* Frame 0 in the base *)\nZ = {{{}}}", all.join(","));
     }
     out.push_str("\n(* End of definition *)\n");
-    Ok(ParFile { text: out, frames: frames.clone(), last: n })
+    out
 }
 
 /// `th3` or `r3`; `q3`, which no parameter is called, where that is taken.
@@ -109,7 +120,8 @@ fn text(e: Expr, is_angle: bool) -> String {
     let form = Angle::of(e);
     let names = Vocabulary::new();
     // SYMORO has no word for degrees.
-    let print = |e: Expr| print(e, &names, Style::Ascii).replace(" deg", "*pi/180");
+    // And a name is what it is, whatever else it may mean in a formula.
+    let print = |e: Expr| print(e, &names, Style::Ascii).replace(" deg", "*pi/180").replace('`', "");
     if !is_angle || form.radians.is_zero() {
         return match e.as_number() {
             Some(x) => decimal(&x),
@@ -131,7 +143,7 @@ fn text(e: Expr, is_angle: bool) -> String {
 }
 
 /// The tree with variables alone in θ and r, and its frames and its base as rows.
-fn with_plain_variables(tree: &RowTree) -> Result<(RowTree, Numbers), NoPar> {
+pub(in crate::description) fn with_plain_variables(tree: &RowTree) -> Result<(RowTree, Numbers), NoPar> {
     let original = tree;
     let (mut tree, mut frames, moved) = with_frames_as_rows(tree)?;
     let mut ends: Vec<(usize, usize)> = vec![];

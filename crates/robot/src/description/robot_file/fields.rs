@@ -1,5 +1,6 @@
 //! The values of a TOML table, with their places.
 
+use super::closures::Loops;
 use super::tree::Branches;
 use super::{Cell, Value};
 use crate::description::cell::{Place, Style, read_cell};
@@ -14,6 +15,8 @@ pub(super) struct Reader<'t> {
     pub out: Diagnostics,
     /// What makes the rows a tree, if they are one.
     pub branches: Option<Branches>,
+    /// The loops of the tree, if it has some.
+    pub loops: Option<Loops>,
 }
 
 /// The entries of a table in the order of the text.

@@ -5,6 +5,7 @@ use super::{Cell, Convention, MAX_ROWS, Quantity, Style, quantity_of};
 use crate::description::rows::Cells;
 use crate::description::{JointKind, Row, Variable};
 use denavit_symbolic::Expr;
+use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -109,15 +110,31 @@ impl Reader<'_> {
         let fields = self.table(row, "[joints]")?;
         let branches: &[&str] = if convention == Some(Convention::Khalil) { &["after"] } else { &[] };
         let known = [convention.map_or(LETTERS, letters), COMMON, branches].concat();
-        self.unknown_keys(&fields, &known, |key| hint(key, convention));
+        Some(self.draft_of(fields, row.span(), convention, &known))
+    }
+
+    /// A side of a closure.
+    pub fn side<'a>(&mut self, fields: Fields<'a>, span: Range<usize>) -> Draft<'a> {
+        let known = [letters(Convention::Khalil), &["after"]].concat();
+        self.draft_of(fields, span, Some(Convention::Khalil), &known)
+    }
+
+    fn draft_of<'a>(
+        &mut self,
+        fields: Fields<'a>,
+        span: Range<usize>,
+        convention: Option<Convention>,
+        known: &[&str],
+    ) -> Draft<'a> {
+        self.unknown_keys(&fields, known, |key| hint(key, convention));
         let khalil = convention == Some(Convention::Khalil);
         let mut cell = |key: &str, quantity| {
             let value = fields.get(key).filter(|_| known.contains(&key));
-            value.and_then(|v| self.cell(v, &Style::of(quantity))).unwrap_or_else(|| Cell::zero(row.span()))
+            value.and_then(|v| self.cell(v, &Style::of(quantity))).unwrap_or_else(|| Cell::zero(span.clone()))
         };
         let (x, z) = if khalil { ("d", "r") } else { ("a", "d") };
         let cells = Cells {
-            span: row.span(),
+            span: span.clone(),
             theta: cell("theta", Quantity::Angle),
             d: cell(z, Quantity::Length),
             a: cell(x, Quantity::Length),
@@ -125,7 +142,7 @@ impl Reader<'_> {
             gamma: cell("gamma", Quantity::Angle),
             b: cell("b", Quantity::Length),
         };
-        Some(Draft { cells, fields })
+        Draft { cells, fields }
     }
 
     /// The rows, with what each says about its joint and its link.

@@ -1,6 +1,7 @@
 //! Robot files (TOML), as `docs/robot-files.md` describes them.
 
 mod axes;
+mod closures;
 mod fields;
 mod frames;
 mod joints;
@@ -12,15 +13,16 @@ mod write_axes;
 
 pub(super) use parameters::name_fault;
 pub(super) use write::exact_rpy;
-pub use write::{write_toml, write_tree};
+pub use write::{write_linkage, write_toml, write_tree};
 pub use write_axes::{AxesAs, write_axes};
 
 use super::branches::RowTree;
 use super::cell::{Style, Value};
 use super::diagnostic::{Diagnostic, Diagnostics, nearest};
+use super::linkage::Linkage;
 use super::rows::{self, Cell};
 use super::units::Quantity;
-use super::{Convention, Description, JointKind, Row};
+use super::{Convention, Description, JointKind, Row, Variable};
 use denavit_symbolic::{Expr, Symbol};
 use fields::{Fields, Reader};
 use frames::FrameCells;
@@ -46,6 +48,8 @@ const KEYS: &[&str] = &[
     "gravity",
     "frames",
     "tip",
+    "closures",
+    "modes",
 ];
 
 /// What a text describes.
@@ -55,6 +59,8 @@ pub enum Described {
     Chain(Box<Description>),
     /// A tree of rows.
     Tree(Box<RowTree>),
+    /// A tree of rows with closed loops.
+    Linkage(Box<Linkage>),
 }
 
 /// Reads a robot file; of a tree the chain to its tip, or to the frame with the most joints on the way. With the description come
@@ -92,11 +98,12 @@ pub fn read_robot(text: &str) -> Result<(Described, Vec<Diagnostic>), Vec<Diagno
     if !readable {
         return out.finish(None); // what a broken line meant is anybody's guess
     }
-    let mut reader = Reader { text, out, branches: None };
+    let mut reader = Reader { text, out, branches: None, loops: None };
     let description = reader.description(table.get_ref());
-    let described = description.map(|d| match reader.branches.take() {
-        Some(branches) => Described::Tree(Box::new(branches.tree(d))),
-        None => Described::Chain(Box::new(d)),
+    let described = description.map(|d| match (reader.branches.take(), reader.loops.take()) {
+        (Some(branches), None) => Described::Tree(Box::new(branches.tree(d))),
+        (Some(branches), Some(loops)) => Described::Linkage(Box::new(loops.linkage(branches.tree(d)))),
+        (None, _) => Described::Chain(Box::new(d)),
     });
     reader.out.finish(described)
 }
@@ -116,22 +123,44 @@ impl Reader<'_> {
         let names: Vec<String> = declared.iter().map(|p| p.name.clone()).collect();
         // Frames alone are a tree, too.
         let needs_joints = fields.get("frames").is_none();
-        let drafts = self.joints(fields.get("joints"), convention, needs_joints);
-        let cells: Vec<rows::Cells> = drafts.iter().map(|d| d.cells.clone()).collect();
+        let mut drafts = self.joints(fields.get("joints"), convention, needs_joints);
         let pieces = self.branches(&fields, &drafts, convention);
+        let count = drafts.len();
+        let closures = closures::of(&fields);
+        let halves = closures.map(|value| {
+            let row_names: Vec<Option<String>> =
+                drafts.iter().map(|d| self.string(d.fields.get("name"))).collect();
+            let (halves, sides) = self.closures(value, &row_names, convention);
+            drafts.extend(sides);
+            halves
+        });
+        let cells: Vec<rows::Cells> = drafts.iter().map(|d| d.cells.clone()).collect();
         let (base, base_cells) = self.frame(fields.get("base"), "base");
         let (tool, tool_cells) = self.frame(fields.get("tool"), "tool");
 
-        rows::check_declared(cells.iter().flat_map(|r| r.all()), &names, drafts.len(), &mut self.out);
+        let passive = if halves.is_some() { closures::passive_names(&cells) } else { vec![] };
+        for p in declared.iter().filter(|p| passive.contains(&p.name)) {
+            self.out
+                .error(p.value.span(), format!("the parameter `{}` is named like a passive joint", p.name))
+                .hint("p1, p2, … are the passive joints of a file with [[closures]]; choose another letter");
+        }
+        let known = [&names[..], &passive[..]].concat();
+        rows::check_declared(cells.iter().flat_map(|r| r.all()), &known, count, &mut self.out);
         let frame_cells: Vec<&FrameCells> = [&base_cells, &tool_cells].into_iter().chain(&pieces).collect();
         for cell in frame_cells.iter().flat_map(|c| c.lengths.iter().chain(&c.angles).chain(&c.entries)) {
             self.constant_of_parameters(cell, &names, drafts.len());
         }
-        let variables =
-            rows::assign_variables(&cells, convention.unwrap_or(Convention::Standard), &mut self.out);
+        let order = convention.unwrap_or(Convention::Standard);
+        let variables = match halves {
+            None => rows::assign_variables(&cells, order, &mut self.out),
+            Some(_) => rows::assign_all_variables(&cells, order, &mut self.out),
+        };
+        self.check_sides(&cells[count..], &variables[count..], &variables);
         let mut uses = parameters::Uses::of(&cells, &frame_cells);
-        let kinds: Vec<JointKind> = variables.iter().flatten().map(|v| v.kind).collect();
-        let rows = self.rows(drafts, &variables, &names);
+        let driven = variables.iter().flatten().filter(|v| !passive.contains(&v.symbol.name().to_string()));
+        let kinds: Vec<JointKind> = driven.map(|v| v.kind).collect();
+        let mut rows = self.rows(drafts, &variables, &known);
+        let sides = rows.split_off(count);
         uses.others = rows.iter().flat_map(Row::mass_summands).collect();
         let parameters = self.parameter_values(&declared, &uses);
         let poses = self.poses(fields.get("poses"), &kinds);
@@ -140,6 +169,15 @@ impl Reader<'_> {
             let first = cells.first().map_or(0..0, |c| c.span.clone());
             let finding = self.out.warning(first, "no row holds a joint variable: this is a fixed transform");
             finding.hint("the cell of a joint holds its variable: `q1`, or `q1 + 90 deg`");
+        }
+        if let Some(halves) = halves {
+            let variables: Vec<Variable> = variables.iter().flatten().copied().collect();
+            let modes = self.modes(fields.get("modes"), &variables, &names);
+            self.loops = Some(closures::Loops { halves, sides, modes });
+        } else if let Some(value) = fields.get("modes") {
+            self.out
+                .error(value.span(), "assembly modes of what has no closed loop")
+                .hint("[[closures]] are the loops: left = { after = … }, right = { after = … }");
         }
         Some(Description {
             name,
@@ -269,6 +307,9 @@ fn top_level_hint(key: &str) -> Option<String> {
         "xyz" | "rpy" | "matrix" => belongs("[base] or [tool]"),
         "frames" => Some("[[frames]] are frames with names in a tree".into()),
         "tip" => Some("a file with [[joints]] has [tool]; [tip] belongs to [[axes]] and [[screws]]".into()),
+        "left" | "right" | "closure" | "loops" => {
+            Some("each closed loop is a [[closures]]: left, right".into())
+        }
         "joint" | "links" | "rows" => Some("each row of the table is a [[joints]]".into()),
         _ => None,
     }

@@ -6,7 +6,7 @@ use super::joints::Draft;
 use super::{Convention, Described};
 use crate::description::branches::{BASE, NamedFrame, RowTree};
 use crate::description::diagnostic::nearest;
-use crate::description::{Description, Diagnostic, Severity};
+use crate::description::{Description, Diagnostic, NotCoupled, Severity};
 use crate::geometry::Transform;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -26,6 +26,14 @@ impl Branches {
 }
 
 impl Described {
+    /// The tree of rows, if it is one.
+    pub fn tree(self) -> Option<RowTree> {
+        match self {
+            Described::Tree(tree) => Some(*tree),
+            Described::Chain(_) | Described::Linkage(_) => None,
+        }
+    }
+
     /// The chain, or of a tree the one to its tip; what it was read with goes on.
     ///
     /// # Errors
@@ -35,13 +43,18 @@ impl Described {
         mut findings: Vec<Diagnostic>,
     ) -> Result<(Description, Vec<Diagnostic>), Vec<Diagnostic>> {
         let finding = |severity, message| Diagnostic { severity, span: 0..0, message, hint: None };
-        let tree = match self {
+        let (what, chain) = match self {
             Described::Chain(d) => return Ok((*d, findings)),
-            Described::Tree(tree) => tree,
+            Described::Tree(tree) => {
+                ("a tree", tree.chain(None, None, Convention::Khalil).map_err(NotCoupled::NoChain))
+            }
+            Described::Linkage(linkage) => {
+                ("a tree with closed loops", linkage.chain(None, None, None, Convention::Khalil))
+            }
         };
-        match tree.chain(None, None, Convention::Khalil) {
+        match chain {
             Ok(chain) => {
-                let message = format!("a tree: this is the chain from `{}` to `{}`", chain.from, chain.to);
+                let message = format!("{what}: this is the chain from `{}` to `{}`", chain.from, chain.to);
                 findings.insert(0, finding(Severity::Note, message));
                 Ok((chain.description, findings))
             }
@@ -63,7 +76,8 @@ impl Reader<'_> {
     ) -> Vec<FrameCells> {
         let keys = ["frames", "tip"].map(|k| fields.get(k));
         let has_after = drafts.iter().any(|d| d.fields.get("after").is_some());
-        if !has_after && keys.iter().all(Option::is_none) {
+        let is_closed = fields.get("closures").is_some();
+        if !has_after && !is_closed && keys.iter().all(Option::is_none) {
             return vec![];
         }
         if convention != Some(Convention::Khalil) {
@@ -107,7 +121,7 @@ impl Reader<'_> {
     }
 
     /// The row that a value names, one of the first `most`: by its name or its number; "base" and 0 are frame 0.
-    fn row_named(
+    pub(super) fn row_named(
         &mut self,
         value: &Spanned<DeValue>,
         names: &[Option<String>],

@@ -1,11 +1,12 @@
 //! A description as a robot file that reads back to it.
 
 use crate::description::branches::{BASE, RowTree};
-use crate::description::cell::write_cell;
+use crate::description::cell::{variable_number, write_cell};
+use crate::description::linkage::{Linkage, Told};
 use crate::description::units::Quantity;
 use crate::description::{Convention, Description, JointKind, Row};
 use crate::geometry::{Axis, Rotation, Transform};
-use denavit_symbolic::{Expr, Rational, equal, expr::Node};
+use denavit_symbolic::{Expr, Rational, Symbol, equal, expr::Node};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -29,19 +30,21 @@ pub fn write_toml(d: &Description) -> String {
 
 /// The robot file of a tree of rows.
 pub fn write_tree(tree: &RowTree) -> String {
+    write_rows(tree, &tree.all_rows()).whole()
+}
+
+/// The robot file of a tree of rows; `all` are these, and others in which its parameters stand.
+fn write_rows(tree: &RowTree, all: &Description) -> Parts {
     let mut out = String::new();
     let d = tree.all_rows();
-    write_head(&mut out, &d);
+    write_head(&mut out, all);
     if let Some(tip) = &tree.tip {
         // Keys stand before the tables.
         let key = format!("tip = {}\n", quoted(tip));
         let at = out.find("\n\n[parameters]").map_or(out.len(), |at| at + 1);
         out.insert_str(at, &key);
     }
-    let names_of = |a: Option<usize>| match a {
-        None => quoted(BASE),
-        Some(a) => tree.rows[a].name.as_ref().map_or((a + 1).to_string(), |n| quoted(n)),
-    };
+    let names_of = |a: Option<usize>| name_of(tree, a);
     for (j, row) in tree.rows.iter().enumerate() {
         out.push_str("\n[[joints]]\n");
         if tree.after[j] != j.checked_sub(1) {
@@ -53,12 +56,74 @@ pub fn write_tree(tree: &RowTree) -> String {
         let _ = writeln!(out, "\n[[frames]]\nname = {}\non = {}", quoted(&frame.name), names_of(frame.on));
         write_frame(&mut out, &frame.pose);
     }
+    let mut rest = String::new();
     if tree.base != Transform::identity() {
-        out.push_str("\n[base]\n");
-        write_frame(&mut out, &tree.base);
+        rest.push_str("\n[base]\n");
+        write_frame(&mut rest, &tree.base);
     }
-    write_poses(&mut out, &d);
-    out
+    write_poses(&mut rest, &d);
+    Parts { rows: out, rest }
+}
+
+/// The robot file of a tree with closed loops.
+pub fn write_linkage(linkage: &Linkage) -> String {
+    let tree = RowTree { poses: linkage.poses.clone(), ..linkage.tree.clone() };
+    let mut out = write_rows(&tree, &linkage.all_rows());
+    let names_of = |a: Option<usize>| name_of(&tree, a);
+    let mut tail = String::new();
+    for closure in &linkage.closures {
+        tail.push_str("\n[[closures]]\n");
+        if let Some(name) = &closure.name {
+            let _ = writeln!(tail, "name = {}", quoted(name));
+        }
+        for (key, side) in [("left", &closure.left), ("right", &closure.right)] {
+            let cells = Convention::Khalil.order().iter().filter(|c| !c.of(&side.row).is_zero()).map(|c| {
+                let quantity = if c.turns() { Quantity::Angle } else { Quantity::Length };
+                format!(", {} = {}", c.key(Convention::Khalil), cell(c.of(&side.row), quantity))
+            });
+            let cells: String = cells.collect();
+            let _ = writeln!(tail, "{key} = {{ after = {}{cells} }}", names_of(side.after));
+        }
+    }
+    if !linkage.modes.is_empty() {
+        tail.push_str("\n[modes]\n");
+    }
+    for mode in &linkage.modes {
+        let told = match &mode.told {
+            Told::Signs(text) => text.clone(),
+            Told::Relations(all) => {
+                let relation = |(symbol, e): &(Symbol, Expr)| {
+                    let kind = linkage.kind(*symbol).unwrap_or(JointKind::Revolute);
+                    let quantity = super::quantity_of(kind);
+                    format!("{} = {}", symbol.name(), write_cell(*e, quantity))
+                };
+                all.iter().map(relation).collect::<Vec<_>>().join(", ")
+            }
+        };
+        let _ = writeln!(tail, "{} = {}", key(&mode.name), quoted(&told));
+    }
+    out.rows.push_str(&tail);
+    out.whole()
+}
+
+/// A file in parts.
+struct Parts {
+    rows: String,
+    rest: String,
+}
+
+impl Parts {
+    fn whole(self) -> String {
+        self.rows + &self.rest
+    }
+}
+
+/// What a row is called behind `after`.
+fn name_of(tree: &RowTree, a: Option<usize>) -> String {
+    match a {
+        None => quoted(BASE),
+        Some(a) => tree.rows[a].name.as_ref().map_or((a + 1).to_string(), |n| quoted(n)),
+    }
 }
 
 /// What a file begins with: name, convention, source, gravity and parameters.
@@ -84,7 +149,8 @@ pub(super) fn write_head(out: &mut String, d: &Description) {
 pub(super) fn write_poses(out: &mut String, d: &Description) {
     if !d.poses.is_empty() {
         out.push_str("\n[poses]\n");
-        let kinds: Vec<JointKind> = d.variables().iter().map(|v| v.kind).collect();
+        let driven = d.variables().into_iter().filter(|v| variable_number(&v.symbol.name()).is_some());
+        let kinds: Vec<JointKind> = driven.map(|v| v.kind).collect();
         for (name, pose) in &d.poses {
             let values: Vec<String> =
                 pose.iter().zip(&kinds).map(|(&e, &k)| cell(e, super::quantity_of(k))).collect();

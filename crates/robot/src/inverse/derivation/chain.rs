@@ -7,8 +7,8 @@
 
 use super::algebra::{Algebra, Column, Kind, Matrix, identity};
 use crate::description::{Description, JointKind};
-use crate::geometry::{Rotation, Transform, Vector};
-use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot, parallel};
+use crate::geometry::{Rotation, Transform, Vector, parallel};
+use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot};
 use crate::space::Periods;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational, Ring, Symbol, readable};

@@ -1,6 +1,6 @@
 //! Parallel axes, read off the exact constant rotation between them: a turn there and back is found, and 89.99° is not.
 
-use crate::geometry::Rotation;
+use super::Rotation;
 use denavit_symbolic::{Expr, Node, Rational, equal};
 
 /// If z stays parallel to itself: whether it is reversed.
