@@ -98,7 +98,7 @@ fn texts_are_read_as_what_they_look_like() {
         assert_eq!(Kind::of_text(text), kind, "{text}");
     }
     let read = read_text("mine", toml.into(), Kind::Robot, &Options::default()).expect("a robot");
-    assert_eq!(read.content.chain("mine", None, None, None).map(|c| c.0.variables().len()), Ok(1));
+    assert_eq!(read.content.chain("mine", None, None, None, None).map(|c| c.0.variables().len()), Ok(1));
     let wrong = read_text("mine", toml.replace("q1", "q1 +").into(), Kind::Robot, &Options::default());
     let Err(Problem::Errors(findings)) = wrong else { panic!("a sum that breaks off") };
     assert_eq!(findings.first().map(|f| (&*f.name, f.is_error())), Some(("mine", true)));

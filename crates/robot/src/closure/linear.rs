@@ -19,7 +19,8 @@ impl Factors {
         let mut left: Vec<Vec<f64>> = columns.to_vec();
         let mut coefficients: Vec<Vec<f64>> = vec![vec![]; columns.len()];
         let mut open: Vec<usize> = (0..columns.len()).collect();
-        let (mut q, mut r): (Vec<Vec<f64>>, Vec<(usize, Vec<f64>)>) = (vec![], vec![]);
+        let mut q: Vec<Vec<f64>> = vec![];
+        let mut r: Vec<(usize, Vec<f64>)> = vec![];
         let mut first = 0.0;
         loop {
             let length = |j: usize| dot(&left[j], &left[j]).sqrt();
