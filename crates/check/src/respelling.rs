@@ -17,9 +17,10 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 16] = [
+    let of_prose: [fn(&str) -> Option<String>; 17] = [
         macros::written_out,
         macros::values_in_tables,
+        without_french_blanks,
         without_quotes,
         without_speakers,
         small_functions,
@@ -74,6 +75,12 @@ fn script_without_head(text: &str) -> Option<String> {
 /// A text with points in its numbers, where they have commas, byte for byte.
 pub(super) fn with_points(text: &str) -> Cow<'_, str> {
     decimal_points(text).map_or(Cow::Borrowed(text), Cow::Owned)
+}
+
+/// A text with a blank for the `~` that French has before a semicolon or a colon in LaTeX; nothing for other texts.
+fn without_french_blanks(text: &str) -> Option<String> {
+    let marks = ["~;", "~:"];
+    marks.iter().any(|m| text.contains(m)).then(|| text.replace("~;", " ;").replace("~:", " :"))
 }
 
 /// The lines with an `=` in them that are no longer than people write, each with its place.

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::terminal::{note, words};
 use denavit::description::{ClosedChain, Described, Description, Language, NoChain, NotCoupled};
 use denavit_load::{Content, Kind, NotTaken};
-use denavit_report::words::Whole;
+use denavit_report::words::{Tongue, Whole};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
 
@@ -99,7 +99,7 @@ fn couplings(closed: &ClosedChain) -> String {
 
 /// An angle or a length as the table shows it.
 fn plain(e: Expr) -> String {
-    denavit_report::document::plain(&denavit_report::cell(e, true), &Vocabulary::new())
+    denavit_report::document::plain(&denavit_report::cell(e, true, Tongue::English.words()), &Vocabulary::new())
 }
 
 /// Reads the file of `.par` that the arguments name.

@@ -161,7 +161,11 @@ impl<'a> Math<'a> {
                 match text.is_empty() {
                     _ if is_bare => atom("{}".into()),
                     true => sign(""),
-                    false => atom(format!("\\text{{{text}}}")),
+                    // `"0,5"` is a number.
+                    false => match decimal(&text) {
+                        Some(number) => atom(number),
+                        None => atom(format!("\\text{{{text}}}")),
+                    },
                 }
             }
             '(' | '[' | '{' => atom(self.group()),
@@ -380,4 +384,11 @@ fn bare(text: &str) -> &str {
         depth >= 0
     });
     if is_one { inner } else { text }
+}
+
+/// `0{,}5` for a text that is a number with a comma.
+fn decimal(text: &str) -> Option<String> {
+    let (whole, rest) = text.split_once(',')?;
+    let is_number = |part: &str| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit());
+    (is_number(whole) && is_number(rest)).then(|| format!("{whole}{{,}}{rest}"))
 }

@@ -62,7 +62,7 @@ const WORDS: [&str; 4] = [
     "el la los las de del en es son una un con para por que no se si más como cada valor valores fila filas columna columnas \
      articulación articulaciones eslabón eslabones brazo hombro codo muñeca alcance efector sistema herramienta demostrado paso pasos \
      rama ramas solución soluciones dos tres ambos ambas solo donde su sus lo al hay luego sea incógnita miembro eje ejes otra otro \
-     par pares den le ningún ninguna determinante giro",
+     par pares den le les ningún ninguna determinante giro",
 ];
 
 /// The text of a line, its formulas as `#`.

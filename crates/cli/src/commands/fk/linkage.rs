@@ -12,6 +12,7 @@ use denavit::description::{Convention, JointKind};
 use denavit::geometry::Transform;
 use denavit::quantity::reading;
 use denavit_report::document::plain;
+use denavit_report::words::Tongue;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol, readable};
 use denavit_wire::Schema;
@@ -191,7 +192,7 @@ pub fn configuration(linkage: &Linkage, text: Option<&str>) -> Result<Vec<f64>, 
 }
 
 fn shown(e: Expr, is_angle: bool) -> String {
-    plain(&denavit_report::cell(readable::settled(e), is_angle), &Vocabulary::new())
+    plain(&denavit_report::cell(readable::settled(e), is_angle, Tongue::English.words()), &Vocabulary::new())
 }
 
 fn vector(v: &Vectors) -> String {
