@@ -99,7 +99,10 @@ fn couplings(closed: &ClosedChain) -> String {
 
 /// An angle or a length as the table shows it.
 fn plain(e: Expr) -> String {
-    denavit_report::document::plain(&denavit_report::cell(e, true, Tongue::English.words()), &Vocabulary::new())
+    denavit_report::document::plain(
+        &denavit_report::cell(e, true, Tongue::English.words()),
+        &Vocabulary::new(),
+    )
 }
 
 /// Reads the file of `.par` that the arguments name.
