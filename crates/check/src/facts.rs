@@ -10,6 +10,9 @@ use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::slip::Slip;
 use denavit_symbolic::Symbol;
 
+/// Names of rates (1) and accelerations (2), with the joints that they are of.
+pub(crate) type Motion = std::collections::BTreeMap<String, (usize, usize)>;
+
 /// What a claim is about.
 #[derive(Clone, PartialEq, Debug)]
 pub enum About {

@@ -7,11 +7,13 @@
 
 mod apart;
 mod blamed;
+mod blocks;
 mod carried;
 mod causes;
 mod changed;
 mod configurations;
 mod convention;
+mod counted;
 mod custom;
 mod definitions;
 mod directions;
@@ -165,7 +167,7 @@ pub fn check(
     if options.language.is_some() {
         plan.remarks = Rc::new(document.statements.iter().map(|s| s.span.clone()).collect());
     }
-    let programs = plan::programs(text, &document, options);
+    let programs = blocks::programs(text, &document, options);
     let forces = scripts::forces(text, &programs, &|name| plan.joint(name));
     // What is judged as dynamics is not refused as kinematics.
     let mut of_forces: Vec<Range<usize>> = vec![];

@@ -1,8 +1,10 @@
 //! Which robot each part of a document is about: tables and directives in their order.
 
 use super::CheckOptions;
+use super::blocks;
 use super::changed::{self, with_lengths, with_names, with_tool, with_tool_at};
 use super::convention;
+use super::facts::Motion;
 use super::habits::Habits;
 use super::letters::mentioned;
 use super::lexis::set_in;
@@ -12,7 +14,6 @@ use super::numbers::Configuration;
 use super::order;
 use super::programs::{self, Followed, Source};
 use super::remarks;
-use super::scripts::Motion;
 use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Answered, Assertion, Defined, Goal, Walk, of_other_points, points};
@@ -23,7 +24,7 @@ use denavit::description::{
 };
 use denavit::geometry::{Transform, Vector};
 use denavit_reading::code::Dialect;
-use denavit_reading::document::{CodeBlock, Directive, Document, Format};
+use denavit_reading::document::{Directive, Document, Format};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
@@ -329,7 +330,7 @@ impl Plan {
         options: &CheckOptions,
     ) -> Vec<(usize, Dialect, Vec<Range<usize>>)> {
         let mut found: Vec<(usize, Dialect, Vec<Range<usize>>)> = vec![];
-        for (span, language) in programs(text, document, options) {
+        for (span, language) in blocks::programs(text, document, options) {
             let number = self.at(span.start);
             match found.iter_mut().find(|f| (f.0, f.1) == (number, language)) {
                 Some(program) => program.2.push(span),
@@ -481,7 +482,7 @@ impl Plan {
         let source = self.programs.as_deref().unwrap_or(text);
         let (mut followed, mut unsaid, mut numbers, mut tested) = (vec![], vec![], vec![], vec![]);
         for (number, language, blocks) in self.blocks(text, document, options) {
-            let outputs = outputs(text, document, &blocks);
+            let outputs = blocks::outputs(text, document, &blocks);
             let of = Source {
                 text,
                 source,
@@ -569,37 +570,6 @@ fn nothing(convention: Convention) -> Description {
         poses: vec![],
         gravity: None,
     }
-}
-
-/// The programs of a document, or the one that it is.
-pub(super) fn programs(
-    text: &str,
-    document: &Document,
-    options: &CheckOptions,
-) -> Vec<(Range<usize>, Dialect)> {
-    if let Some(language) = options.language {
-        return vec![(0..text.len(), language)];
-    }
-    let of = |block: &CodeBlock| {
-        let language = match block.language.as_str() {
-            "python" | "py" | "python3" | "numpy" => Dialect::Python,
-            "matlab" | "octave" | "m" => Dialect::Matlab,
-            "c" | "cpp" | "c++" | "arduino" | "ino" => Dialect::C,
-            _ => return None,
-        };
-        let is_skipped = block.directives.iter().any(|d| matches!(words(d).0, "skip" | "off"));
-        (!is_skipped).then(|| (block.span.clone(), language))
-    };
-    document.code.iter().filter_map(of).collect()
-}
-
-/// Where what a block of a program shows may stand: up to the next block of a language.
-fn outputs(text: &str, document: &Document, blocks: &[Range<usize>]) -> Vec<Range<usize>> {
-    let next = |end: usize| {
-        let later = document.code.iter().filter(|c| c.span.start > end && !c.language.is_empty());
-        later.map(|c| c.span.start).min().unwrap_or(text.len())
-    };
-    blocks.iter().map(|b| b.end..next(b.end)).collect()
 }
 
 /// All directives of a document.

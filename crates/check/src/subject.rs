@@ -1,5 +1,6 @@
 //! What formulas are about: a robot, its frames, and what people call its quantities.
 
+use super::counted;
 use super::facts::Meaning;
 use super::habits::Habits;
 use super::matrix::Matrix;
@@ -294,35 +295,12 @@ impl Subject {
         of_frames(&frames, &hand.unwrap_or_else(Transform::identity), &is_revolute)
     }
 
-    /// The numbers of the joints where the table's names count otherwise than its rows: q0, q1, …, or θ4, θ5, θ6 of a wrist; θ1, θ2 beside
-    /// a slide without a number.
-    fn numbers(&self) -> Option<Vec<Option<usize>>> {
-        let number = |name: &str| -> Option<usize> {
-            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-            name[stem.len()..].parse().ok().filter(|n| !stem.is_empty() && *n < 10)
-        };
-        if self.first != 0 || self.variables.len() < 2 {
-            return None;
-        }
-        let all: Vec<Option<usize>> = self.variables.iter().map(|v| v.as_deref().and_then(number)).collect();
-        let first = all.first().copied().flatten().filter(|n| *n != 1);
-        if first.is_some_and(|f| (f..).zip(&all).all(|(k, n)| *n == Some(k))) {
-            return Some(all);
-        }
-        let variables = self.description.variables();
-        let turns =
-            || variables.iter().zip(&all).filter(|(v, _)| v.kind == JointKind::Revolute).map(|(_, n)| *n);
-        let is_own = all.iter().enumerate().all(|(k, n)| n.is_none_or(|n| n == k + 1));
-        let is_counted = turns().count() > 1 && (1..).zip(turns()).all(|(k, n)| n == Some(k));
-        (is_counted && !is_own).then_some(all)
-    }
-
     /// The names of the robot's quantities: parameters, joint variables, the table's own names for them, cells of
     /// the table (`d_3`), sums of angles (`θ_{234}`), the letters of a general row (`θ_j`).
     pub fn vocabulary(&self) -> Vocabulary {
         let d = &self.description;
         let variables = d.variables();
-        let numbers = self.numbers();
+        let numbers = if self.first == 0 { counted::numbers(&self.variables, &variables) } else { None };
         let mut names = match &numbers {
             None => d.vocabulary(),
             Some(all) => {

@@ -1,5 +1,8 @@
 //! How a command ends when it does not succeed.
 
+use denavit::description::{Description, Measure};
+use denavit::robot::MissingValue;
+use denavit_symbolic::Symbol;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -41,4 +44,17 @@ impl From<io::Error> for Failure {
     fn from(e: io::Error) -> Self {
         Failure::Io(e)
     }
+}
+
+/// Parameters have no value.
+pub fn without_values(description: &Description, name: &str, missing: &MissingValue) -> Failure {
+    let example = |p: &String| match description.measure(Symbol::new(p)) {
+        Measure::Angle => format!("--set {p}=30deg"),
+        Measure::Length => format!("--set {p}=450mm"),
+        Measure::Other("") => format!("--set {p}=1"),
+        Measure::Other(unit) if unit.contains([' ', '^']) => format!("--set \"{p}=1 {unit}\""),
+        Measure::Other(unit) => format!("--set {p}=1{unit}"),
+    };
+    let settings: Vec<String> = missing.parameters.iter().map(example).collect();
+    Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))
 }

@@ -1,7 +1,7 @@
 //! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
 
 use super::letters::{Letters, role_of};
-use crate::scripts::Motion;
+use crate::facts::Motion;
 use crate::subject::{Subject, spellings as spelled};
 use denavit::description::JointKind;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};

@@ -3,9 +3,9 @@
 use super::spelling::{spelled, squeezed};
 use super::{KNOWN, Line, Region, regions};
 use crate::dynamics::speaks_of_masses;
+use crate::facts::Motion;
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format};
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Lines of programs as formulas of dynamics.
@@ -21,9 +21,6 @@ pub(crate) struct Forces {
     /// Parameters for rates (1) and accelerations (2) of joints.
     pub motion: Motion,
 }
-
-/// Names of rates (1) and accelerations (2), with the joints that they are of.
-pub(crate) type Motion = BTreeMap<String, (usize, usize)>;
 
 /// No more lines are looked at.
 const MAX_LINES: usize = 400;

@@ -14,7 +14,7 @@ use super::listing::comment_mark;
 pub(super) use computed::computed;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
-pub(super) use forces::{Forces, Motion, forces};
+pub(super) use forces::{Forces, forces};
 use spelling::{branches, defines, is_factor_of_root, renamed, roots, spelled, squeezed};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -44,9 +44,8 @@ const KNOWN: [&str; 30] = [
 ];
 /// The most statements of a line.
 const MAX_BESIDE: usize = 12;
-/// The longest line.
+/// The longest line, and the most parameters of a function that are looked at.
 const LONGEST: usize = 2_000;
-/// The most parameters of a function that are looked at.
 const MAX_PARAMETERS: usize = 40;
 
 /// A function of a program, or what stands outside of them.

@@ -1,9 +1,8 @@
 //! `denavit convert`: a robot in another format, read back and held against itself.
 
 use crate::arguments::{ConvertArguments, ConvertFormat};
-use crate::commands::fk::without_values;
 use crate::commands::report::put;
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load::{self, Around, Tree};
 use crate::terminal::{note, words};
 use denavit::closure::Loops;

@@ -1,9 +1,9 @@
 //! `denavit show`: the table, and what is special about the arm.
 
 use crate::arguments::ShowArguments;
-use crate::commands::fk::{configuration, linkage, without_values};
+use crate::commands::fk::{configuration, linkage};
 use crate::commands::report::put;
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, NAME, note, styled, table, words};
 use denavit::closure::Loops;

@@ -2,7 +2,7 @@
 
 use super::{Around, contents, name_and_value, options, render, rows};
 use crate::arguments::RobotArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::terminal::note;
 use denavit::closure::{Loops, findings};
 use denavit::description::{
@@ -83,9 +83,7 @@ pub fn set(arguments: &RobotArguments, linkage: &mut Linkage) -> Result<(), Fail
 /// # Errors
 /// If a length has no value.
 pub fn loops(arguments: &RobotArguments, linkage: &Linkage) -> Result<Loops, Failure> {
-    Loops::new(linkage).map_err(|missing| {
-        crate::commands::fk::without_values(&linkage.all_rows(), &arguments.robot, &missing)
-    })
+    Loops::new(linkage).map_err(|missing| without_values(&linkage.all_rows(), &arguments.robot, &missing))
 }
 
 /// The chain of a linkage.

@@ -5,6 +5,7 @@ mod axes;
 mod common;
 mod description;
 mod description_bytes;
+mod description_counted;
 mod description_tables;
 mod documents_inverse;
 mod documents_jacobian;

@@ -28,10 +28,8 @@ fn par(text: &str) -> RowTree {
 }
 
 pub fn tree(text: &str) -> RowTree {
-    match read_robot(text)
-        .unwrap_or_else(|f| panic!("{}\n{text}", denavit::description::render(&f, "", text)))
-        .0
-    {
+    let read = read_robot(text);
+    match read.unwrap_or_else(|f| panic!("{}\n{text}", denavit::description::render(&f, "", text))).0 {
         Described::Tree(tree) => *tree,
         Described::Chain(_) | Described::Linkage(_) => panic!("a tree is expected"),
     }

@@ -7,9 +7,9 @@ pub mod tree;
 
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;
-use crate::commands::fk::{Frame, configuration, plural, value, without_values};
+use crate::commands::fk::{Frame, configuration, plural, value};
 use crate::commands::jacobian::{joint_rates, joints_of, numbers};
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load::{self, Around};
 use crate::terminal::{note, words};
 use denavit::Robot;

@@ -7,19 +7,18 @@ pub mod tree;
 
 use crate::arguments::{FkArguments, Format};
 use crate::commands::derive;
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load::{self, Around, Tree};
 use crate::terminal::{Align, HEADING, NAME, lowered, matrix, noise, note, number, raised, styled};
 use answer::Answers;
 pub use answer::strict;
 use denavit::Robot;
-use denavit::description::{Convention, Description, JointKind, Measure, NamedFrame, Variable};
+use denavit::description::{Convention, Description, JointKind, NamedFrame, Variable};
 use denavit::forward::Reference;
 use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::geometry::{Transform, Vector};
 use denavit::quantity::reading;
-use denavit::robot::MissingValue;
-use denavit_symbolic::{Expr, Symbol};
+use denavit_symbolic::Expr;
 use std::io::Write;
 
 /// Computes poses.
@@ -77,19 +76,6 @@ pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
             pose_names(&description),
         ))),
     }
-}
-
-/// Parameters have no value.
-pub fn without_values(description: &Description, name: &str, missing: &MissingValue) -> Failure {
-    let example = |p: &String| match description.measure(Symbol::new(p)) {
-        Measure::Angle => format!("--set {p}=30deg"),
-        Measure::Length => format!("--set {p}=450mm"),
-        Measure::Other("") => format!("--set {p}=1"),
-        Measure::Other(unit) if unit.contains([' ', '^']) => format!("--set \"{p}=1 {unit}\""),
-        Measure::Other(unit) => format!("--set {p}=1{unit}"),
-    };
-    let settings: Vec<String> = missing.parameters.iter().map(example).collect();
-    Failure::Input(format!("error: {name}: {missing}\n  = hint: give values, as in {}", settings.join(" ")))
 }
 
 /// Whether the chain of a tree that is taken where none is named has all of these frames; nothing where there is no such chain.

@@ -6,9 +6,9 @@ mod stream;
 mod summary;
 
 use crate::arguments::{Format, IkArguments};
-use crate::commands::fk::{configuration, without_values};
+use crate::commands::fk::configuration;
 use crate::commands::{certificate, document};
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::{note, words};
 use answer::{Question, Report, Wanted};

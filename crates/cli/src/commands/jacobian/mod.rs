@@ -8,8 +8,8 @@ mod symbolic;
 
 use crate::arguments::{Format, JacobianArguments};
 use crate::commands::derive::reference;
-use crate::commands::fk::{configuration, plural, without_values};
-use crate::failure::Failure;
+use crate::commands::fk::{configuration, plural};
+use crate::failure::{Failure, without_values};
 use crate::load;
 use answer::{Answer, Questions};
 use denavit::Robot;

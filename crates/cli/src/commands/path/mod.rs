@@ -8,8 +8,7 @@ mod request;
 mod samples;
 
 use crate::arguments::{PathArguments, PathFormat};
-use crate::commands::fk::without_values;
-use crate::failure::Failure;
+use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::note;
 use denavit::Robot;
