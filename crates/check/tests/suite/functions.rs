@@ -173,8 +173,8 @@ fn a_scalar_that_is_right_elsewhere_is_not_at_fault() {
                    def jac(q1, q2):\n    reach = L0 + L1*cos(q2)\n    return np.array([[-sin(q1)*reach, -cos(q1)*L1*sin(q2)],\n                     \
                    [cos(q1)*reach, -sin(q1)*L1*sin(q2)],\n                     [0, reach]])\n";
     let found = read(program, Some(Dialect::Python));
-    assert_eq!(standings(&found), [("jac(…)", Standing::Wrong)]);
+    assert_eq!(standings(&found), [("reach", Standing::Equal), ("jac(…)", Standing::Wrong)]);
     let wrong: Vec<_> =
-        found.claims[0].entries.iter().filter(|e| e.finding.standing() == Standing::Wrong).collect();
+        found.claims[1].entries.iter().filter(|e| e.finding.standing() == Standing::Wrong).collect();
     assert_eq!(wrong.iter().map(|e| e.place).collect::<Vec<_>>(), [Some((3, 2))]);
 }
