@@ -385,8 +385,12 @@ fn pointed(text: &str) -> Option<String> {
     let mut has_unit = false;
     // `Exercise 2.6` among numbers with commas.
     let mut points = 0;
+    let drawn = drawings(text);
+    // `0{,}5` in formulas: then commas are those of numbers in the words, too, whatever else has points.
+    let in_braces = |at: usize| at > 0 && is_digit(at - 1) && is_digit(at + "{,}".len());
+    let is_told = text.match_indices("{,}").filter(|m| in_braces(m.0)).count() > 2;
     for (k, b) in bytes.iter().enumerate() {
-        if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) {
+        if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) || drawn.iter().any(|d| d.contains(&k)) {
             continue;
         }
         match b {
@@ -400,6 +404,9 @@ fn pointed(text: &str) -> Option<String> {
                     || matches!(bytes.get(end + 1), Some(b',' | b'.')) && is_digit(end + 2);
                 let is_pair = before == Some(&b'(') && bytes.get(end + 1) == Some(&b')');
                 if is_index || is_pair {
+                    if is_told {
+                        continue;
+                    }
                     return None;
                 }
                 // `[0,1]` is a row or an interval.
@@ -412,12 +419,22 @@ fn pointed(text: &str) -> Option<String> {
             _ => {}
         }
     }
-    if commas.len() < 3 && !has_unit || commas.len() < COMMAS_A_POINT * points {
+    if !is_told && (commas.len() < 3 && !has_unit || commas.len() < COMMAS_A_POINT * points)
+        || commas.is_empty()
+    {
         return None;
     }
     let mut bytes = text.as_bytes().to_vec();
     commas.into_iter().for_each(|k| bytes[k] = b'.');
     String::from_utf8(bytes).ok()
+}
+
+/// Where pictures stand whose coordinates are those of a program.
+fn drawings(text: &str) -> Vec<Range<usize>> {
+    const MAX_DRAWINGS: usize = 200;
+    let (begin, end) = ("\\begin{tikzpicture}", "\\end{tikzpicture}");
+    let whole = |(at, _): (usize, &str)| at..text[at..].find(end).map_or(text.len(), |i| at + i);
+    text.match_indices(begin).take(MAX_DRAWINGS).map(whole).collect()
 }
 
 /// A text that writes joint rates as `θ1'`, with `dθ1` instead, byte for byte; nothing for other texts.

@@ -46,16 +46,14 @@ fn nothing_that_is_written_is_accused() {
             let latex = render::latex_fragment(&document);
             let markdown = render::markdown(&document, "figures").text;
             let texts = [(latex, Format::Latex), (markdown, Format::Markdown)];
-            // Commas of numbers in words are not read yet beside the points of pictures in LaTeX.
-            let is_read = |f: Format| f != Format::Latex || !language.words().has_decimal_comma();
-            for (k, (text, format)) in texts.iter().enumerate().filter(|(_, t)| is_read(t.1)) {
+            for (k, (text, format)) in texts.iter().enumerate() {
                 let (proved, accused) = judged(robot, text, *format);
                 assert!(accused.is_empty(), "{robot}, {language:?}, {format:?}: {accused:#?}");
                 assert!(proved >= 20, "{robot}, {language:?}, {format:?}: {proved} proved");
                 if language == Tongue::English {
                     of_english.push(proved);
                 }
-                assert_eq!(proved, of_english[k], "{robot}, {language:?}, {format:?}: proved");
+                assert!(proved >= of_english[k], "{robot}, {language:?}, {format:?}: {proved} proved");
             }
         }
     }
