@@ -7,8 +7,10 @@ use denavit::forward::{Proof as Forward, Reference};
 use denavit::quantity::reading;
 use denavit::robot::MissingValue;
 use denavit::velocity::{
-    Example, JacobianModel, Minor, Obstacle, Place, REST, ROWS, Singularities, Singularity, Viewpoint,
+    Example, Jacobian, JacobianModel, Minor, Obstacle, Place, REST, ROWS, Singularities, Singularity,
+    Viewpoint,
 };
+use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Rational};
 
@@ -54,14 +56,19 @@ pub fn singularities_document(
     blocks
 }
 
-/// The matrix that most books have, of the body at its own origin along the axes of the base, if that is not the shortest.
+/// Longer entries, in symbols and numbers, nobody reads; `jacobian --symbolic --frame base` gives them.
+const MAX_READ: u64 = 40;
+
+/// The matrix that most books have, of the body at its own origin along the axes of the base, if that is not the shortest and its
+/// entries are ones that people read.
 fn in_base(description: &Description, shortest: &JacobianModel, words: &dyn Wording) -> Vec<Block> {
     let body = shortest.view.body;
     let view = Viewpoint::of(body, Reference::Base);
     let is_same = shortest.view.axes == view.axes && shortest.view.at == view.at;
     let model = JacobianModel::derive(description, view);
+    let is_read = |matrix: &Jacobian<Expr>| matrix.rows().iter().flatten().all(|&e| literals(e) <= MAX_READ);
     match model.matrix {
-        Ok(matrix) if !is_same => vec![
+        Ok(matrix) if !is_same && is_read(&matrix) => vec![
             Block::Paragraph(words.viewpoint(view.body, view.at, None, view.axes)),
             Block::Formula {
                 math: Math::Matrix(Factor::named("J"), matrix.rows().to_vec()),
