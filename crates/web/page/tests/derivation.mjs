@@ -29,15 +29,15 @@ scenario("link transforms one after another, each with its row in the picture", 
     await press(page, "Next");
     await walk(page).getByText(`Row ${row}: from frame ${row - 1} to frame ${row}.`).waitFor();
     await page.locator(".scene-row-title", { hasText: `Row ${row}` }).waitFor();
-    const isSeen = await lines.evaluateAll((all) => all.map((line) => getComputedStyle(line).visibility === "visible"));
-    assert.deepEqual(isSeen, isSeen.map((_, k) => k <= row), "what comes behind is not to be seen yet");
+    const isSeen = () => lines.evaluateAll((all) => all.map((line) => getComputedStyle(line).visibility === "visible"));
+    await until(async () => (await isSeen()).every((seen, k) => seen === k <= row), "what comes behind is not to be seen yet");
   }
   assert.equal(await page.getByRole("button", { name: "Next", exact: true }).getAttribute("aria-disabled"), "true");
   await press(page, "Back");
   await page.locator(".scene-row-title", { hasText: `Row ${robot.rows - 1}` }).waitFor();
   await press(page, "Show all");
-  assert.equal(await page.locator(".scene-row").count(), 0);
-  assert.equal(await page.locator(".walk-ahead").count(), 0, "all is seen again");
+  await until(async () => (await page.locator(".scene-row").count()) === 0, "no row is marked in the picture");
+  await until(async () => (await page.locator(".walk-ahead").count()) === 0, "all is seen again");
 });
 
 /** The number that a sentence says to be drawn, out of the engine's frames. */
@@ -89,5 +89,5 @@ scenario("an inverse derivation goes on and back, and another topic begins witho
   await until(async () => (await place(page)).at === count - 1, "one back");
   await page.getByRole("tablist", { name: "Topics" }).getByRole("tab", { name: "Jacobian", exact: true }).click();
   await walk(page).waitFor({ state: "detached" });
-  assert.equal(await page.locator(".walk-ahead").count(), 0);
+  await until(async () => (await page.locator(".walk-ahead").count()) === 0, "nothing is ahead");
 });
