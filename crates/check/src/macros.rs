@@ -1,13 +1,15 @@
-//! Short names that a document gives to words, `\\newcommand{\\atan}{\\operatorname{atan2}}`, and tables of values, written out where they
+//! Short names that a document gives to words, `\newcommand{\atan}{\operatorname{atan2}}`, and tables of values, written out where they
 //! stand, byte for byte.
 
 use super::lines::lines;
+use super::tools::edge;
+use denavit_reading::document::closing_brace;
 use denavit_symbolic::greek;
 use std::ops::Range;
 
 /// No more definitions are read.
 const MAX_DEFINED: usize = 100;
-/// The longest line of a table that is looked at.
+/// The longest line of a table, and the longest body, that is looked at.
 const LONGEST: usize = 300;
 /// Units of lengths.
 const LENGTHS: [&str; 4] = ["m", "mm", "cm", "in"];
@@ -47,7 +49,7 @@ pub(super) fn written_out(text: &str) -> Option<String> {
     if is_any { String::from_utf8(bytes).ok() } else { None }
 }
 
-/// `{\\name}{body}`, `\\name{body}`: the name with its stroke, the body and where it ends; nothing for one with arguments.
+/// `{\name}{body}`, `\name{body}`: the name with its stroke, the body and where it ends; nothing for one with arguments.
 fn definition(text: &str, at: usize) -> Option<(&str, &str, usize)> {
     let rest = text.get(at..)?.strip_prefix('*').unwrap_or(text.get(at..)?);
     let bare = rest.strip_prefix('{').unwrap_or(rest);
@@ -55,16 +57,7 @@ fn definition(text: &str, at: usize) -> Option<(&str, &str, usize)> {
     let (name, behind) = bare.split_at(letters + 1);
     let behind = behind.strip_prefix('}').unwrap_or(behind);
     let inner = behind.strip_prefix('{')?;
-    let mut depth = 0_usize;
-    let close = inner.char_indices().take(200).find_map(|(i, c)| {
-        match c {
-            '{' => depth += 1,
-            '}' if depth == 0 => return Some(i),
-            '}' => depth -= 1,
-            _ => {}
-        }
-        None
-    })?;
+    let close = closing_brace(&inner[..edge(inner, LONGEST)])?;
     (letters > 0).then(|| (name, &inner[..close], text.len() - inner.len() + close + 1))
 }
 
@@ -113,7 +106,8 @@ pub(super) fn values_in_tables(text: &str) -> Option<String> {
 /// A row that gives a length its value, as a statement of the same length.
 fn value(line: &str) -> Option<Vec<u8>> {
     let cuts: Vec<usize> = line.match_indices('|').map(|c| c.0).collect();
-    let &[first, second, third, ..] = &cuts[..] else { return None };
+    // A table of a robot has more columns.
+    let (&[first, second, third], true) = (cuts.first_chunk::<3>()?, cuts.len() <= 4) else { return None };
     let bare = |s: &str| s.trim().trim_matches(['`', '$', '*', ' ']).to_string();
     let (name, number) = (bare(&line[first + 1..second]), bare(&line[second + 1..third]));
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');

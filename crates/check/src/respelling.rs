@@ -387,8 +387,15 @@ fn pointed(text: &str) -> Option<String> {
     let mut points = 0;
     let drawn = drawings(text);
     // `0{,}5` in formulas: then commas are those of numbers in the words, too, whatever else has points.
-    let in_braces = |at: usize| at > 0 && is_digit(at - 1) && is_digit(at + "{,}".len());
-    let is_told = text.match_indices("{,}").filter(|m| in_braces(m.0)).count() > 2;
+    // Groups of three digits alone are thousands.
+    let in_braces = |at: &usize| *at > 0 && is_digit(at - 1) && is_digit(at + "{,}".len());
+    let told: Vec<usize> = text.match_indices("{,}").map(|m| m.0).filter(in_braces).collect();
+    let is_decimal = |at: &usize| {
+        let behind = at + "{,}".len();
+        let digits = (behind..bytes.len()).take_while(|&k| is_digit(k)).count();
+        digits != 3 || bytes[at - 1] == b'0' && (*at < 2 || !is_digit(at - 2))
+    };
+    let is_told = told.len() > 2 && told.iter().any(is_decimal);
     for (k, b) in bytes.iter().enumerate() {
         if k == 0 || !is_digit(k - 1) || !is_digit(k + 1) || drawn.iter().any(|d| d.contains(&k)) {
             continue;

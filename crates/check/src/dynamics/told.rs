@@ -187,6 +187,16 @@ fn inertia(lower: &str) -> Option<Point> {
     found
 }
 
+/// True for words that may be about one configuration: `with θ1 = 0`, `for the stretched arm`.
+pub(super) fn is_case(words: &str) -> bool {
+    const WORDS: [&str; 24] = [
+        "for", "at", "with", "when", "where", "if", "case", "here", "then", "bei", "für", "mit", "wenn",
+        "falls", "pour", "avec", "si", "quand", "para", "con", "cuando", "per", "quando", "se",
+    ];
+    let lower = words.to_lowercase();
+    lower.contains('=') || lower.split(|c: char| !c.is_alphabetic()).any(|w| WORDS.contains(&w))
+}
+
 /// True for words before a formula, or behind it on its line, that say that it is one of a special case: a joint held, slow motion, small
 /// angles, terms left out, values of joints.
 pub(super) fn is_special_case(words: &str) -> bool {

@@ -414,7 +414,7 @@ impl Verdicts<'_> {
             })
         };
         // A zero among formulas in which the joint moves is meant for all its values, and so is what stands beside another of its kind
-        // that is right for all of them.
+        // that is right for all of them, unless the words between are about a case.
         let read = &self.attempt.read;
         let right_kin: Vec<Symbol> = read
             .pieces
@@ -426,7 +426,9 @@ impl Verdicts<'_> {
             })
             .flat_map(|(p, _)| p.value.symbols())
             .collect();
-        let is_meant = |q: &&Symbol| !(piece.value.is_zero() && spoken.contains(q) || right_kin.contains(q));
+        let is_case = told::is_case(&self.words_around(piece));
+        let is_meant =
+            |q: &&Symbol| !(piece.value.is_zero() && spoken.contains(q) || !is_case && right_kin.contains(q));
         state.q.iter().filter(|q| !printed.contains(q) && right.contains(q)).filter(is_meant).any(is_fixed)
     }
 }

@@ -32,9 +32,10 @@ const POSES: [&str; 14] = [
     "hand_pose",
     "getPose",
 ];
-/// What is called so gives the Jacobian of the hand in the base.
-const JACOBIANS: [&str; 6] =
-    ["jacob0", "jacobian", "jac", "geometric_jacobian", "jacobian0", "compute_jacobian"];
+/// What the toolboxes call the Jacobian of the hand in the base, linear rows first; other names do not say which one it is.
+const JACOBIAN: &str = "jacob0";
+/// Numbers are computed so exactly.
+const ROUNDING: f64 = 1e-9;
 /// Words without which a program tests nothing.
 const TESTS: [&str; 6] = ["assert", "EXPECT_", "ASSERT_", "CHECK", "REQUIRE", "verifyEqual"];
 
@@ -71,7 +72,7 @@ pub(super) fn tests(
         let rows: Matrix = match name {
             _ if is_defined => Matrix::clone(judged.iter().find(|j| j.0 == name)?.1),
             _ if POSES.contains(&name) => Matrix::of(&subject.pose()),
-            _ if JACOBIANS.contains(&name) => {
+            JACOBIAN => {
                 let rows = subject.geometric_rows(Reference::Tool, subject.ground());
                 Matrix(rows.into_iter().map(|r| r.into_iter().map(Some).collect()).collect())
             }
@@ -89,8 +90,12 @@ pub(super) fn tests(
     let codes: Vec<Code> = read_blocks(of.source, of.blocks, of.language, &asked);
     let assigned = || codes.iter().flat_map(|c| &c.functions).flat_map(|f| &f.assigned);
     let is_called = |v: &Value| cells(v).iter().flat_map(|c| c.value.symbols()).any(|s| call_of(s).is_some());
-    for compared in codes.iter().flat_map(|c| &c.compared) {
-        let Some(mut assertion) = expected(of, subject, compared) else { continue };
+    let all = codes.iter().flat_map(|c| &c.compared);
+    let expected: Vec<(&Compared, Expected)> =
+        all.filter_map(|c| Some((c, expected(of, subject, c)?))).collect();
+    // Where nothing is right the functions may be others than they are taken for: in degrees, of another tool.
+    let is_any_right = expected.iter().any(|(_, e)| e.is_right);
+    for (compared, Expected { mut assertion, .. }) in expected.into_iter().filter(|_| is_any_right) {
         // From the maker of the array on.
         let around = |a: &&Assigned| {
             a.name == assertion.name
@@ -131,8 +136,14 @@ fn call_of(s: Symbol) -> Option<usize> {
     s.name().split_once(OF_CALL)?.1.parse().ok()
 }
 
+/// What a test holds against the robot, and whether it is so.
+struct Expected {
+    assertion: Assertion,
+    is_right: bool,
+}
+
 /// What a test holds against the robot; nothing where it compares something else.
-fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Option<Assertion> {
+fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Option<Expected> {
     let symbols = |v: &Value| -> Vec<Symbol> { cells(v).iter().flat_map(|c| c.value.symbols()).collect() };
     let is_number = |v: &Value| symbols(v).is_empty();
     let [a, b] = &compared.values;
@@ -147,13 +158,17 @@ fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Opti
         return None;
     }
     let joints = compared.calls.get(call)?;
-    let values: Option<Vec<f64>> = joints.iter().map(|e| e.eval(|_| None).ok()).collect();
-    let at = Configuration::in_radians(&values?);
+    let values: Vec<f64> = joints.iter().map(|e| e.eval(|_| None).ok()).collect::<Option<_>>()?;
+    let at = Configuration::in_radians(&values);
     let variables = subject.description.variables();
     let joint = |s: Symbol| {
         let name = s.name();
         let name = name.split_once(OF_CALL)?.0;
-        variables.iter().find(|v| *v.symbol.name() == *name).map(|v| Expr::from(v.symbol))
+        variables.iter().position(|v| *v.symbol.name() == *name)
+    };
+    let value_of = |s: Symbol| match joint(s) {
+        Some(k) => values.get(k).copied(),
+        None => subject.description.exact_value(s)?.eval(|_| None).ok(),
     };
     let (wanted, printed_cells) = (cells(robot), cells(printed));
     let shape = |v: &Value| match v {
@@ -167,7 +182,9 @@ fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Opti
     if !is_same {
         return None;
     }
-    let within = compared.within.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.0);
+    let number = |e: Option<Expr>| e.and_then(|e| e.eval(|_| None).ok()).unwrap_or(0.0);
+    let (within, share) = (number(compared.within), number(compared.relative));
+    let mut is_right = true;
     let text = |span: &Range<usize>| of.text.get(span.clone()).unwrap_or_default();
     let pieces: Vec<Piece> = printed_cells
         .iter()
@@ -175,10 +192,13 @@ fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Opti
         .enumerate()
         .map(|(k, (cell, wanted))| {
             let value = cell.value.eval(|_| None).ok()?;
+            let half = half_unit(text(&cell.span)).max(within + share * value.abs());
+            is_right &=
+                wanted.value.eval(value_of).is_ok_and(|right| (value - right).abs() <= half + ROUNDING);
             let answer = Answer {
                 printed: value,
-                half: half_unit(text(&cell.span)).max(within),
-                wanted: wanted.value.substitute(joint),
+                half,
+                wanted: wanted.value.substitute(|s| joint(s).map(|k| variables[k].symbol.into())),
                 at: at.clone(),
                 constant: Some(cell.value),
             };
@@ -196,7 +216,7 @@ fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Opti
         true => (first..last, name),
         false => (compared.span.clone(), text(place)),
     };
-    Some(Assertion {
+    let assertion = Assertion {
         span,
         name: name.to_string(),
         about: About::Equation,
@@ -207,7 +227,8 @@ fn expected(of: &Source<'_>, subject: &Rc<Subject>, compared: &Compared) -> Opti
         names: None,
         reference: None,
         spoken: None,
-    })
+    };
+    Some(Expected { assertion, is_right })
 }
 
 /// The entries of a value, by rows.

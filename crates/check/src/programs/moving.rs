@@ -31,10 +31,27 @@ impl Program<'_> {
         {
             return None;
         }
-        let wanted = self.told_torques(rows).or_else(|| self.torques_of_argument(rows))?;
+        let wanted = self.wanted_torques(rows, is_called)?;
         let matrix = Matrix(wanted.into_iter().map(|e| vec![Some(e)]).collect());
         let pieces = self.compare(rows, &matrix)?;
         Some(self.assertion(shown, About::Matrix(Meaning::Torques), span, pieces, Some(matrix)))
+    }
+
+    /// The torques that rows should be; of rows that are not called so most have to be these.
+    fn wanted_torques(&self, rows: &[Vec<Cell>], is_called: bool) -> Option<Vec<Expr>> {
+        let told = self.told_torques(rows).filter(|w| is_called || self.is_mostly(rows, w));
+        told.or_else(|| self.torques_of_argument(rows))
+    }
+
+    /// How many rows are what is wanted.
+    fn right(&self, rows: &[Vec<Cell>], wanted: &[Expr]) -> usize {
+        let printed = rows.iter().flatten().map(|c| in_radians(c.value));
+        let pairs = printed.zip(wanted);
+        pairs.filter(|(a, b)| equal(*a, self.with_numbers(**b, *a)).is_equal()).count()
+    }
+
+    fn is_mostly(&self, rows: &[Vec<Cell>], wanted: &[Expr]) -> bool {
+        2 * self.right(rows, wanted) > rows.len()
     }
 
     /// The torques for the load that the document tells, if it is in what is printed.
@@ -54,8 +71,7 @@ impl Program<'_> {
 
     /// The torques for a force whose components are an argument, held or exerted: as most of what is printed has it.
     fn torques_of_argument(&self, rows: &[Vec<Cell>]) -> Option<Vec<Expr>> {
-        let printed: Vec<Expr> = rows.iter().flatten().map(|c| in_radians(c.value)).collect();
-        let symbols = printed.iter().flat_map(|e| e.symbols());
+        let symbols = rows.iter().flatten().flat_map(|c| in_radians(c.value).symbols());
         let stem = symbols.into_iter().find_map(|s| {
             let name = s.name().to_string();
             name.strip_suffix(['x', 'y', 'z']).filter(|stem| is_force(stem)).map(String::from)
@@ -64,17 +80,8 @@ impl Program<'_> {
         let force = ["x", "y", "z"].map(|axis| Expr::symbol(&format!("{stem}{axis}")));
         let exerted = self.subject.torques(&[force[0], force[1], force[2], zero, zero, zero]);
         let held: Vec<Expr> = exerted.iter().map(|e| -*e).collect();
-        let right = |wanted: &[Expr]| {
-            let pairs = printed.iter().zip(wanted);
-            pairs.filter(|(a, b)| equal(**a, self.with_numbers(**b, **a)).is_equal()).count()
-        };
-        let (best, count) = [exerted, held]
-            .into_iter()
-            .map(|w| (right(&w), w))
-            .rev()
-            .max_by_key(|w| w.0)
-            .map(|w| (w.1, w.0))?;
-        (2 * count > rows.len()).then_some(best)
+        let best = [held, exerted].into_iter().max_by_key(|w| self.right(rows, w))?;
+        self.is_mostly(rows, &best).then_some(best)
     }
 
     /// The torques of the first joints, each under a name of its own, `tau1 = … F[0] + … F[1]`.
@@ -101,9 +108,8 @@ impl Program<'_> {
         if rows.len() < 2 {
             return vec![];
         }
-        let Some(wanted) = self.told_torques(&rows).or_else(|| self.torques_of_argument(&rows)) else {
-            return vec![];
-        };
+        let is_called = all.iter().all(|(a, _)| custom::plain(&a.name).starts_with('τ'));
+        let Some(wanted) = self.wanted_torques(&rows, is_called) else { return vec![] };
         let of = |((a, cell), wanted): (&(&Assigned, &Cell), Expr)| {
             let pieces = vec![self.piece(None, cell, wanted)];
             self.assertion(&a.name, About::Entry, &a.span, pieces, None)

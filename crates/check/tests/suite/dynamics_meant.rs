@@ -422,3 +422,22 @@ $$g_2 = m_2 g l_2 c_{12}$$";
         says(&[POINTS, values, formulas, right[0], words], &[RIGHT, RIGHT, RIGHT]);
     }
 }
+
+/// Beside a torque of gravity for all angles another may be meant for one of them, where words say so.
+#[test]
+fn gravity_in_a_case_that_words_tell() {
+    let of = |words: &str| {
+        format!(
+            "{TABLE}\nGravity acts along −y. Point masses m1, m2 at the ends of the links.\n\nG1 = (m1 + m2) g l1 cos θ1 + m2 g l2 cos(θ1 + θ2)\n\n\
+             {words}\n\nG2 = m2 g l2 cos θ2\n"
+        )
+    };
+    let standing = |words: &str| {
+        let found = check(&of(words), Format::Markdown, None, &CheckOptions::default()).expect("a robot");
+        found.claims.iter().find(|c| c.name == "G2").map(denavit_check::Claim::standing)
+    };
+    assert_eq!(standing("and below it"), Some(Standing::Wrong));
+    for case in ["For θ1 = 0 only the second link counts:", "With the first link held level:"] {
+        assert_ne!(standing(case), Some(Standing::Wrong), "{case}");
+    }
+}

@@ -110,3 +110,31 @@ fn tests_of_other_functions_say_nothing() {
     let found = read(&text, Dialect::Python);
     assert!(found.claims.iter().all(|c| !c.name.contains("fkine")), "{:?}", found.claims);
 }
+
+/// Functions that may take degrees, or give another point, accuse nobody: no comparison is right.
+#[test]
+fn tests_of_which_none_is_right_accuse_nobody() {
+    let text = tests("0.4, 0.3, 0", "0.25").replace("T[1, 3], 0.35", "T[1, 3], 0.3");
+    let found = read(&text, Dialect::Python);
+    assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+    assert!(!found.unjudged.is_empty());
+}
+
+/// A tolerance relative to what is expected.
+#[test]
+fn relative_tolerances_of_tests() {
+    let text = tests("0, 0.5, 0", "0.2598")
+        .replace("np.allclose(T[1, 3], 0.35)", "np.allclose(T[1, 3], 0.3401, rtol=0.05)");
+    assert_eq!(standing(&read(&text, Dialect::Python), "T[1, 3]"), Some(Standing::Equal));
+}
+
+/// A vector with a force in it that no torques are is left aside.
+#[test]
+fn vectors_with_forces_are_no_torques_by_that() {
+    let text = format!(
+        "{PLANAR}# torques for a force F = (Fx, Fy) at the tip\ndef turned(th1, th2, F):\n    side = np.array([np.cos(th1)*F[0] + np.sin(th1)*F[1], \
+         np.cos(th1)*F[1] - np.sin(th1)*F[0]])\n    return side\n"
+    );
+    let found = read(&text, Dialect::Python);
+    assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", found.claims);
+}

@@ -1,6 +1,6 @@
 //! What a door says of its own accord: where a branch is left, what was left out, how a number was read.
 
-use crate::common::{fed, text};
+use crate::common::{File, fed, text};
 use serde_json::Value;
 
 /// Exit code, standard output, standard error.
@@ -15,27 +15,6 @@ fn json(arguments: &[&str], code: i32) -> Value {
     let (status, out, err) = run(&all, "");
     assert_eq!(status, code, "{arguments:?}: {err}");
     serde_json::from_str(&out).expect("one JSON value")
-}
-
-/// A file for one test, away at its end.
-struct File(std::path::PathBuf);
-
-impl File {
-    fn new(name: &str, text: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("denavit-{}-{name}", std::process::id()));
-        std::fs::write(&path, text).expect("a file");
-        File(path)
-    }
-
-    fn name(&self) -> &str {
-        self.0.to_str().expect("a name")
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
 }
 
 /// The answers to the poses of configurations, each followed from the one before.

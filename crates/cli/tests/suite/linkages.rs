@@ -1,32 +1,11 @@
 //! Closed loops on the command line.
 
-use crate::common::{fed, text};
+use crate::common::{File, fed, text};
 use serde_json::Value;
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
     let output = fed(arguments, "");
     (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
-}
-
-/// A file for one test, away at its end.
-struct File(std::path::PathBuf);
-
-impl File {
-    fn new(name: &str, text: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("denavit-loops-{}-{name}", std::process::id()));
-        std::fs::write(&path, text).expect("a file");
-        File(path)
-    }
-
-    fn name(&self) -> &str {
-        self.0.to_str().expect("a name")
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
 }
 
 #[test]

@@ -21,6 +21,8 @@ pub struct Compared {
     pub values: [(Range<usize>, Value); 2],
     /// How far they may be apart, if that is said.
     pub within: Option<Expr>,
+    /// And which part of the expected value more.
+    pub relative: Option<Expr>,
     /// The values of the joints in each call of a function of the robot so far.
     pub calls: Vec<Vec<Expr>>,
 }
@@ -76,6 +78,7 @@ impl<'a> Machine<'a> {
             Ok(Object::Scalar(s)) => Some(s.expr),
             _ => None,
         };
+        let mut relative = None;
         let mut within =
             positional.next().filter(|_| name.ends_with("NEAR")).and_then(|t| scalar(self, &t.value));
         for argument in arguments {
@@ -83,6 +86,7 @@ impl<'a> Machine<'a> {
             let Some(value) = scalar(self, &argument.value) else { continue };
             match told {
                 "atol" | "delta" => within = Some(value),
+                "rtol" => relative = Some(value),
                 // Half a unit of so many places.
                 "places" | "decimal" => {
                     let places =
@@ -102,6 +106,7 @@ impl<'a> Machine<'a> {
             span: node.span.clone(),
             values: [(a.value.span.clone(), left), (b.value.span.clone(), right)],
             within,
+            relative,
             calls: self.calls.clone(),
         });
         true

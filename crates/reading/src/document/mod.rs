@@ -19,6 +19,7 @@ mod tree;
 mod words;
 
 pub use lexer::Relation;
+pub use scan::closing_brace;
 pub use sides::{formula, sides};
 
 use std::ops::Range;

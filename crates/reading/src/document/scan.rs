@@ -230,7 +230,7 @@ impl<'t> Scanner<'_, 't> {
             if rest.starts_with('{') {
                 let end = trimmed(text, span).end;
                 let inner = end - rest.len() + 1..end;
-                let close = closing(cut(text, &inner)).map_or(inner.end, |i| inner.start + i);
+                let close = closing_brace(cut(text, &inner)).map_or(inner.end, |i| inner.start + i);
                 self.headed(inner.start..close, limit);
                 // `\paragraph{Position.} Given $o$ …`: the text begins on its line.
                 let rest = (close + 1).min(end)..end;
@@ -432,7 +432,7 @@ fn has_letters(text: &str, span: &Range<usize>) -> bool {
 }
 
 /// Where the brace that is open before a text closes.
-fn closing(text: &str) -> Option<usize> {
+pub fn closing_brace(text: &str) -> Option<usize> {
     let mut depth = 0_usize;
     for (i, c) in text.char_indices() {
         match c {
