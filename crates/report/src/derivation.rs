@@ -106,7 +106,12 @@ impl<'a> Derivation<'a> {
         section.heading(2, Line::new(words.image_title(is_point)));
         section.paragraph(words.image(is_point, of.map(Math::Expr), &from, &to));
         if let Some(image) = self.image(of, is_point) {
-            let names = if is_point { ["px", "py", "pz"] } else { ["vx", "vy", "vz"] };
+            // Names that the coordinates do not have themselves.
+            let letters = if is_point { ["p", "r", "s"] } else { ["v", "u", "w"] };
+            let named = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
+            let taken = |name: &String| of.iter().flat_map(|e| e.symbols()).any(|s| *s.name() == **name);
+            let free = letters.into_iter().map(named).find(|names| !names.iter().any(taken));
+            let names = free.unwrap_or_else(|| named("image_"));
             section.names = names.iter().fold(section.names, |v, name| v.symbol(name));
             let equations = names.iter().zip(image).map(|(name, e)| Math::equation(Expr::symbol(name), e));
             section.push(Part::Equations(equations.collect()));

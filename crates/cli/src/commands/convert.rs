@@ -1,11 +1,12 @@
 //! `denavit convert`: a robot in another format, read back and held against itself.
 
 use crate::arguments::{ConvertArguments, ConvertFormat};
+use crate::commands::fk::plural;
 use crate::commands::report::put;
 use crate::failure::{Failure, without_values};
 use crate::load::{self, Around, Tree};
 use crate::terminal::{note, words};
-use denavit::closure::Loops;
+use denavit::closure;
 use denavit::description::{
     Alone, AxesAs, Convention, Decimals, Described, Description, Format, Joint, Linkage, Mechanism, NoPar,
     NotNamed, Part, Row, RowTree, TableKind, TableOptions, read_mjcf, read_par, read_robot, read_table,
@@ -85,30 +86,17 @@ fn linkage(closed: &Linkage, arguments: &ConvertArguments) -> Result<(), Failure
         Described::Linkage(back) => Some(back),
         _ => None,
     });
-    let same = back.is_some_and(|back| same_loops(closed, &back));
-    note(match same {
-        true => "note: read back, its loops close where these do (compared in numbers)",
-        false => "warning: read back, its loops do not close where these do",
+    note(&match back.and_then(|back| closure::compare(closed, &back)) {
+        Some(0) => {
+            "note: read back, no configuration was found in which its loops close: nothing is compared".into()
+        }
+        Some(count) => format!(
+            "note: read back, its loops close where these do (compared in numbers, at {})",
+            plural(count, "configuration")
+        ),
+        None => "warning: read back, its loops do not close where these do".into(),
     });
     Ok(())
-}
-
-/// How many configurations are compared.
-const CONFIGURATIONS: usize = 32;
-
-/// Whether two linkages have the same assemblies at configurations here and there: their number, and their passive joints.
-fn same_loops(a: &Linkage, b: &Linkage) -> bool {
-    let (Ok(a), Ok(b)) = (Loops::new(a), Loops::new(b)) else { return false };
-    if a.driven() != b.driven() || a.passive() != b.passive() {
-        return false;
-    }
-    let mut random = denavit::random::Random(1);
-    (0..CONFIGURATIONS).all(|_| {
-        let q: Vec<f64> = a.driven().iter().map(|_| 2.0 * random.unit() - 1.0).collect();
-        let (x, y) = (a.assemblies(&q), b.assemblies(&q));
-        let near = |(p, o): (&f64, &f64)| ((p - o) / 2.0).sin().abs() < 1e-9;
-        x.len() == y.len() && x.iter().zip(&y).all(|(x, y)| x.passive.iter().zip(&y.passive).all(near))
-    })
 }
 
 /// How what was written is what it was made of.

@@ -43,7 +43,7 @@ pub fn without_chain(arguments: &RobotArguments) -> Result<Option<Linkage>, Fail
     let Some(linkage) = linkage(arguments)? else { return Ok(None) };
     let (base, tip, mode) = (arguments.base.as_deref(), arguments.tip.as_deref(), arguments.mode.as_deref());
     match linkage.chain(base, tip, mode, Convention::Khalil) {
-        Err(NotCoupled::NotAffine { .. }) => {}
+        Err(NotCoupled::NotAffine { .. } | NotCoupled::NotProved(_)) => {}
         _ => return Ok(None),
     }
     if arguments.base.is_some() {

@@ -69,6 +69,13 @@ fn couplings(closed: &ClosedChain) -> String {
     let relations: Vec<String> = closed.passive.iter().map(relation).collect();
     let how = if closed.is_of_values { "proved for the values of the lengths" } else { "proved" };
     let mut text = format!("closed loops{mode}: {}; {how}", relations.join(", "));
+    if !closed.untested.is_empty() {
+        let names = closed.untested.join(", ");
+        text += &format!(
+            "\nwarning: nothing is proved of {names}, whose passive joints are not affine: the chain is taken to move wherever it is, and they \
+             close only as far as they reach"
+        );
+    }
     if !closed.meets.is_empty() {
         let zeros: Vec<String> = closed.meets.iter().map(|e| format!("{} = 0", plain(*e))).collect();
         text += &format!(

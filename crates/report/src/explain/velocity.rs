@@ -151,8 +151,8 @@ pub fn found_singularities_document(
     for (k, example) in found.unwrap_or_default().iter().enumerate() {
         let mut place = Line::new(format!("{}. ", k + 1));
         for (j, (v, x)) in description.variables().iter().zip(&example.q).enumerate() {
-            place = place.text(if j > 0 { ", " } else { "" }).math(Expr::from(v.symbol));
-            place = place.text(format!(" = {}", reading(*x, v.kind)));
+            place = place.text(if j > 0 { words.between() } else { "" }).math(Expr::from(v.symbol));
+            place = place.text(format!(" = {}", words.written(reading(*x, v.kind))));
         }
         blocks.push(Block::Heading(3, place));
         let mut lines = happens(&model.view, example, words);

@@ -68,7 +68,12 @@ fn document(setting: &Setting) -> Document {
         };
         made
     });
-    let title = options.title.clone().unwrap_or_else(|| setting.words().title(&setting.description.name));
-    let author = options.author.clone();
+    let title = given(&options.title).unwrap_or_else(|| setting.words().title(&setting.description.name));
+    let author = given(&options.author);
     Document { title, author, language: options.language, sections: sections.collect() }
+}
+
+/// A text that is told; an empty one is none.
+fn given(text: &Option<String>) -> Option<String> {
+    text.clone().filter(|t| !t.trim().is_empty())
 }

@@ -7,10 +7,10 @@ use crate::description::linkage::dyad::{
 use crate::description::linkage::spherical::{spherical, spherical_square, type_2};
 use crate::description::linkage::{Dyad, Sign, Step, Vectors};
 use crate::geometry::Rotation;
+use crate::space::wrapped;
 use denavit_program::{Function, Graph, Program};
 use denavit_symbolic::{Angle, Expr, Symbol};
 use rustc_hash::FxHashSet;
-use std::f64::consts::{PI, TAU};
 
 /// Roots of what is less than this, of what it is a difference of, are 0: both solutions meet.
 const FLAT: f64 = 1e-14;
@@ -94,7 +94,7 @@ impl Compiled {
             match square {
                 x if x > near => Ok((by * x.sqrt(), Met::Apart)),
                 x if x >= -near && of > 0.0 => Ok((0.0, Met::Meets)),
-                _ => Err(Open::Gap { closure, gap }),
+                _ => Err(Open::Gap { closure, metres: Some(gap) }),
             }
         };
         let length = |z: Complex<f64>| z.square().sqrt();
@@ -187,7 +187,7 @@ impl Compiled {
         }
         let near = FLAT * (of + d * d);
         if square < -near {
-            return Err(Open::Gap { closure, gap: d.abs() - of.sqrt() });
+            return Err(Open::Gap { closure, metres: None });
         }
         let met = if square <= near { Met::Meets } else { Met::Apart };
         let h = if met == Met::Meets { 0.0 } else { square.sqrt() };
@@ -197,10 +197,4 @@ impl Compiled {
         }
         Ok(met)
     }
-}
-
-/// The angle in (−π, π].
-pub(super) fn wrapped(angle: f64) -> f64 {
-    let rest = angle.rem_euclid(TAU);
-    if rest > PI { rest - TAU } else { rest }
 }

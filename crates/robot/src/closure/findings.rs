@@ -2,10 +2,11 @@
 
 use super::linear::Factors;
 use super::rates::RANK;
-use super::{Loops, Open};
+use super::{Assembly, Loops, Open};
 use crate::description::JointKind;
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
 use crate::description::linkage::{Fault, Linkage, NoMode, Plan, Unsolved};
+use crate::quantity::reading;
 use crate::random::Random;
 use denavit_symbolic::{Expr, Symbol};
 use std::f64::consts::PI;
@@ -88,6 +89,38 @@ fn anywhere(loops: &Loops, random: &mut Random) -> Vec<f64> {
         low + (high - low) * random.unit()
     };
     loops.driven().iter().zip(&limits).map(one).collect()
+}
+
+/// How many configurations are compared.
+const COMPARED: usize = 32;
+/// Passive joints that differ less are the same: by the size where they slide.
+const SAME: f64 = 1e-9;
+
+/// At how many configurations, here and there, two linkages are closed by the same assemblies, mode by mode with the same passive
+/// joints; nothing if they differ at one. Neither may be closed anywhere: then it is 0.
+pub fn compare(a: &Linkage, b: &Linkage) -> Option<usize> {
+    let (a, b) = (Loops::new(a).ok()?, Loops::new(b).ok()?);
+    if a.driven() != b.driven() || a.passive() != b.passive() {
+        return None;
+    }
+    let mut random = Random(1);
+    let near = |k: usize, x: f64, y: f64| match a.passive()[k] {
+        JointKind::Revolute => ((x - y) / 2.0).sin().abs() < SAME,
+        JointKind::Prismatic => (x - y).abs() < SAME * a.size,
+    };
+    let mut count = 0;
+    for _ in 0..COMPARED {
+        let q = anywhere(&a, &mut random);
+        let (x, y) = (a.assemblies(&q), b.assemblies(&q));
+        let same = |(x, y): (&Assembly, &Assembly)| {
+            (0..x.passive.len()).all(|k| near(k, x.passive[k], y.passive[k]))
+        };
+        if x.len() != y.len() || !x.iter().zip(&y).all(same) {
+            return None;
+        }
+        count += usize::from(!x.is_empty());
+    }
+    Some(count)
 }
 
 /// What is to be said of a linkage that was read: what is wrong with its loops, with its places.
@@ -179,14 +212,18 @@ fn closes(linkage: &Linkage, loops: &Loops, first: &std::ops::Range<usize>, out:
     }
     let at_rest: Vec<Result<_, Open>> = modes.iter().map(|mode| loops.assembly(&rest, mode)).collect();
     let mobility = mobility(loops);
-    if at_rest.iter().all(Result::is_err) {
+    // Closed in more ways than can be counted is closed.
+    let is_open = |a: &Result<_, Open>| matches!(a, Err(why) if !matches!(why, Open::Indeterminate { .. }));
+    if at_rest.iter().all(is_open) {
         let gap = at_rest.iter().find_map(|a| match a {
-            Err(Open::Gap { closure, gap } | Open::Contradicts { closure, gap }) => Some((*closure, *gap)),
+            Err(Open::Gap { closure, metres }) => Some((*closure, *metres)),
+            Err(Open::Contradicts { closure, .. }) => Some((*closure, None)),
             _ => None,
         });
         let span = gap.map_or(first.clone(), |(closure, _)| linkage.closures[closure].span.clone());
-        let how = gap.map_or(String::new(), |(closure, gap)| {
-            format!(": `{}` is open by {gap:.4} m", linkage.loop_name(closure))
+        let how = gap.map_or(String::new(), |(closure, metres)| {
+            let far = metres.map_or(String::new(), |m| format!(" by {}", reading(m, JointKind::Prismatic)));
+            format!(": `{}` is open{far}", linkage.loop_name(closure))
         });
         match mobility {
             Some(_) => out.note(span, format!("not closed with all driven joints at 0{how}")),

@@ -11,7 +11,7 @@ mod newton;
 mod rates;
 
 pub use dyads::Met;
-pub use findings::{Mobility, findings, mobility};
+pub use findings::{Mobility, compare, findings, mobility};
 pub use rates::Rates;
 
 use crate::description::linkage::{Linkage, Mode, NoMode, Plan, is_passive};
@@ -62,12 +62,12 @@ pub struct Assembly {
 /// Why a linkage is not closed in a mode.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Open {
-    /// This loop does not reach: its sides stay so many metres apart.
+    /// This loop does not reach: its sides stay so far apart.
     Gap {
         /// The closure.
         closure: usize,
-        /// Metres, or what is like it.
-        gap: f64,
+        /// Metres; nothing of a spherical loop, in which directions do not reach one another.
+        metres: Option<f64>,
     },
     /// The two places between which the dyad of this loop stands coincide: it is closed by infinitely many configurations, or by none.
     Indeterminate {
@@ -85,7 +85,7 @@ pub enum Open {
     },
 }
 
-/// Frames that are closer are closed, by the size of the linkage.
+/// Frames that are closer are closed: places by the size of the linkage, and sines of angles.
 const CLOSED: f64 = 1e-9;
 
 impl Loops {
@@ -180,7 +180,15 @@ impl Loops {
     /// # Panics
     /// If there is not one value for each driven joint.
     pub fn assemblies(&self, q: &[f64]) -> Vec<Assembly> {
-        self.plan.modes().into_iter().filter_map(|mode| self.assembly(q, &mode).ok()).collect()
+        self.tried(q).into_iter().filter_map(|(_, found)| found.ok()).collect()
+    }
+
+    /// What comes of each mode where the driven joints are; of very many of the first ([`Plan::modes`], of [`Plan::count`]).
+    ///
+    /// # Panics
+    /// If there is not one value for each driven joint.
+    pub fn tried(&self, q: &[f64]) -> Vec<(Mode, Result<Assembly, Open>)> {
+        self.plan.modes().into_iter().map(|mode| (mode.clone(), self.assembly(q, &mode))).collect()
     }
 
     /// The way to close it in a mode.
@@ -222,11 +230,10 @@ impl Loops {
             self.descend(&mut all, near.is_some()).ok_or(Open::NotFound)?;
         }
         let apart = self.apart(&all);
-        let worst = apart.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let (closure, residual) = worst.unwrap_or((0, 0.0));
-        if residual.is_nan() || residual > CLOSED * self.size.max(1.0) {
-            return Err(Open::Contradicts { closure, gap: residual });
+        if let Some(closure) = self.first_apart(&all) {
+            return Err(Open::Contradicts { closure, gap: apart[closure] });
         }
+        let residual = apart.into_iter().fold(0.0, f64::max);
         let is_numeric = !self.rest.is_empty();
         Ok(Assembly { mode: mode.clone(), passive: all.split_off(q.len()), residual, flat, is_numeric })
     }
@@ -274,6 +281,20 @@ impl Loops {
             entries.map(|(x, y)| (x - y).abs()).fold(0.0, |m: f64, x| if x <= m { m } else { x })
         };
         self.sides.iter().map(one).collect()
+    }
+
+    /// The first closure that is not closed: places by the size of the linkage, directions by themselves.
+    fn first_apart(&self, all: &[f64]) -> Option<usize> {
+        let frames = self.placed(all);
+        let is_closed = |sides: &[(Link<f64>, Option<usize>); 2]| {
+            let [a, b] = sides.each_ref().map(|s| self.side(&frames, s, all));
+            let place = (a.translation - b.translation).norm();
+            let (x, y) = (a.rotation.rows(), b.rotation.rows());
+            let turn = x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| (x - y).abs());
+            // What is no number is far.
+            place <= CLOSED * self.size && turn.into_iter().all(|x| x <= CLOSED)
+        };
+        self.sides.iter().position(|s| !is_closed(s))
     }
 
     fn side(

@@ -1,11 +1,11 @@
 //! Loops that no dyad solves: by Newton's method, from where they were, from 0, and from here and there.
 
-use super::dyads::wrapped;
 use super::linear::Factors;
 use super::{CLOSED, Loops};
 use crate::description::JointKind;
-use crate::geometry::Transform;
+use crate::geometry::{Transform, Vector};
 use crate::random::Random;
+use crate::space::wrapped;
 use std::f64::consts::PI;
 
 /// How often it is begun.
@@ -59,7 +59,7 @@ impl Loops {
             let by = if longest > 0.5 { 0.5 / longest } else { 1.0 };
             self.rest.iter().zip(&step).for_each(|(&k, s)| x[k] -= by * s);
         }
-        self.apart(x).into_iter().all(|gap| gap <= CLOSED * self.size.max(1.0))
+        self.first_apart(x).is_none()
     }
 
     /// For each closure the twist from the right frame to the left one, lengths by the size, as [`Loops::constraint`] has them.
@@ -68,15 +68,10 @@ impl Loops {
         let one = |sides: &[_; 2]| {
             let [a, b]: [Transform<f64>; 2] = [&sides[0], &sides[1]].map(|s| self.side(&frames, s, x));
             let r = (a.rotation * b.rotation.inverse()).rows();
-            let w = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|e| e / 2.0);
+            let w = Vector([r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]).scale(0.5);
             // The velocity at the origin of the base: v = ṗ − ω × p.
-            let (p, d) = (b.translation.0, a.translation - b.translation);
-            let v = [
-                d[0] - (w[1] * p[2] - w[2] * p[1]),
-                d[1] - (w[2] * p[0] - w[0] * p[2]),
-                d[2] - (w[0] * p[1] - w[1] * p[0]),
-            ];
-            [v.map(|e| e / self.size), w].concat()
+            let v = (a.translation - b.translation) - w.cross(b.translation);
+            [v.0.map(|e| e / self.size), w.0].concat()
         };
         self.sides.iter().flat_map(one).collect()
     }

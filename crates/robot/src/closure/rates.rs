@@ -4,7 +4,7 @@
 use super::linear::Factors;
 use super::{Loops, Place};
 use crate::geometry::{Transform, Vector};
-use crate::mechanism::{Line, Link};
+use crate::mechanism::Link;
 
 /// How the passive joints and a frame move with the driven joints.
 #[derive(Clone, Debug)]
@@ -30,10 +30,10 @@ impl Loops {
         let mut columns = vec![vec![0.0; 6 * self.sides.len()]; all.len()];
         for (k, sides) in self.sides.iter().enumerate() {
             for (sign, (link, on)) in [1.0, -1.0].into_iter().zip(sides) {
-                let mut add = |twist: [f64; 6], variable: usize, by: f64| {
+                let mut add = |twist: [f64; 6], variable: usize| {
                     for (i, x) in twist.into_iter().enumerate() {
                         let scale = if i < 3 { 1.0 / self.size } else { 1.0 };
-                        columns[variable][6 * k + i] += sign * by * x * scale;
+                        columns[variable][6 * k + i] += sign * x * scale;
                     }
                 };
                 self.along(&frames, *on, Some(link), &mut add);
@@ -42,23 +42,20 @@ impl Loops {
         columns
     }
 
-    /// The twists of the joints on the way to a row, and of a link on it, each with its variable and factor.
+    /// The twists of the joints on the way to a row, and of a link on it, each with its variable.
     fn along(
         &self,
         frames: &[Transform<f64>],
         on: Option<usize>,
         behind: Option<&Link<f64>>,
-        add: &mut impl FnMut([f64; 6], usize, f64),
+        add: &mut impl FnMut([f64; 6], usize),
     ) {
         let place = |row: Option<usize>| row.map_or(self.base, |r| frames[r]);
         let mut one = |link: &Link<f64>, on: Option<usize>| {
-            let Line { direction: z, point: p } = link.axis(&place(on));
-            let turn = p.cross(z);
-            for &(variable, by) in &link.theta.terms {
-                add([turn[0], turn[1], turn[2], z[0], z[1], z[2]], variable, by);
-            }
-            for &(variable, by) in &link.d.terms {
-                add([z[0], z[1], z[2], 0.0, 0.0, 0.0], variable, by);
+            let axis = link.axis(&place(on));
+            for mover in link.movers() {
+                let [v, w] = axis.twist(&mover, Vector::zero());
+                add([v[0], v[1], v[2], w[0], w[1], w[2]], mover.joint);
             }
         };
         if let Some(link) = behind {
@@ -90,8 +87,8 @@ impl Loops {
         let g: Vec<Vec<f64>> = (0..p.len()).map(|i| solved.iter().map(|c| -c[i]).collect()).collect();
         let frames = self.placed(&all);
         let mut spatial = vec![[0.0; 6]; all.len()];
-        self.along(&frames, place.0, None, &mut |twist, variable, by| {
-            spatial[variable].iter_mut().zip(twist).for_each(|(s, t)| *s += by * t);
+        self.along(&frames, place.0, None, &mut |twist, variable| {
+            spatial[variable].iter_mut().zip(twist).for_each(|(s, t)| *s += t);
         });
         let origin = (place.0.map_or(self.base, |r| frames[r]) * place.1).translation;
         let column = |j: usize| {

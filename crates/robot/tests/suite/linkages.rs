@@ -361,7 +361,7 @@ fn four_bars_at_random_close_in_both_modes_or_are_open_by_what_is_said() {
             assert!(all.is_empty());
             let gap = (far - b - c).max((b - c).abs() - far);
             match loops.assembly(&[q], &loops.plan().usual()) {
-                Err(Open::Gap { gap: said, .. }) => assert!((said - gap).abs() < 1e-12),
+                Err(Open::Gap { metres: Some(said), .. }) => assert!((said - gap).abs() < 1e-12),
                 other => panic!("{other:?}"),
             }
             open += 1;
@@ -489,4 +489,68 @@ fn loops_that_are_neither_are_found_by_descent_and_say_so() {
     let a = &loops.assemblies(&[0.7])[0];
     assert!(a.is_numeric && a.residual < 1e-9, "{a:?}");
     assert_eq!(mobility(&loops).expect("it closes").count(), 2);
+}
+
+/// A loop that is not affine beside a parallelogram is not proved by it, and that is said.
+#[test]
+fn what_is_not_proved_beside_a_chain_is_named() {
+    let text = "name = \"two loops\"\nconvention = \"khalil\"\n\
+                [[joints]]\nname = \"crank\"\ntheta = \"q1\"\n\
+                [[joints]]\nname = \"coupler\"\nd = 1\ntheta = \"p1\"\n\
+                [[joints]]\nname = \"other\"\nafter = \"base\"\nd = 3\ntheta = \"p2\"\n\
+                [[joints]]\nname = \"rod\"\nafter = \"crank\"\nd = 0.5\ntheta = \"p4\"\n\
+                [[joints]]\nname = \"rocker\"\nafter = \"base\"\nd = 2\ntheta = \"p5\"\n\
+                [[closures]]\nname = \"four\"\nleft = { after = \"coupler\", d = 3, theta = \"p3\" }\nright = { after = \"other\", d = 1 }\n\
+                [[closures]]\nname = \"dyad\"\nleft = { after = \"rod\", d = 0.9, theta = \"p6\" }\nright = { after = \"rocker\", d = 0.7 }\n";
+    let read = read_robot(text).unwrap_or_else(|f| panic!("{}", denavit::description::render(&f, "", text)));
+    let Described::Linkage(linkage) = read.0 else { panic!("closed loops") };
+    let chain = linkage.chain(None, Some("coupler"), None, Convention::Khalil).expect("a chain");
+    let closed = chain.closed.expect("out of loops");
+    assert_eq!(closed.untested, ["dyad"]);
+    assert_eq!(closed.passive.iter().map(|p| p.0.name().to_string()).collect::<Vec<_>>(), ["p1", "p2", "p3"]);
+}
+
+/// Of a rhombus the parallelogram is what is meant, and a rhombus at rest is closed.
+#[test]
+fn a_rhombus_is_a_parallelogram_first() {
+    let text = "name = \"rhombus\"\nconvention = \"khalil\"\n\
+                [[joints]]\nname = \"crank\"\ntheta = \"q1\"\n\
+                [[joints]]\nname = \"coupler\"\nd = 1\ntheta = \"p1\"\n\
+                [[joints]]\nname = \"rocker\"\nafter = \"base\"\nd = 1\ntheta = \"p2\"\n\
+                [[closures]]\nleft = { after = \"coupler\", d = 1, theta = \"p3\" }\nright = { after = \"rocker\", d = 1 }\n";
+    let (read, _) = read_robot(text).expect("loops");
+    let Described::Linkage(linkage) = read else { panic!("closed loops") };
+    let loops = Loops::new(&linkage).expect("in numbers");
+    let first = loops.assembly(&[1.0], &loops.plan().usual()).expect("closed");
+    assert!((first.passive[0] + 1.0).abs() < 1e-12, "the coupler keeps its direction: {first:?}");
+    assert!(!findings(&linkage).iter().any(|d| d.message.contains("not closed")));
+}
+
+/// More modes than are listed: relations of the last ones are found all the same.
+#[test]
+fn modes_beyond_those_that_are_listed() {
+    let mut text = String::from("name = \"many\"\nconvention = \"khalil\"\n");
+    for k in 0..8 {
+        text += &format!(
+            "[[joints]]\nname = \"crank{k}\"\nafter = \"base\"\ntheta = \"q{}\"\n[[joints]]\nname = \"coupler{k}\"\nd = 1\ntheta = \"p{}\"\n\
+             [[joints]]\nname = \"rocker{k}\"\nafter = \"base\"\nd = 3\ntheta = \"p{}\"\n",
+            k + 1,
+            3 * k + 1,
+            3 * k + 2
+        );
+    }
+    for k in 0..8 {
+        text += &format!(
+            "[[closures]]\nleft = {{ after = \"coupler{k}\", d = 2.5, theta = \"p{}\" }}\nright = {{ after = \"rocker{k}\", d = 2 }}\n",
+            3 * k + 3
+        );
+    }
+    let read =
+        read_robot(&text).unwrap_or_else(|f| panic!("{}", denavit::description::render(&f, "", &text)));
+    let Described::Linkage(linkage) = read.0 else { panic!("closed loops") };
+    let loops = Loops::new(&linkage).expect("in numbers");
+    assert_eq!((loops.plan().count(), loops.plan().modes().len()), (256, 64));
+    let mode = loops.mode(Some("--------")).expect("a mode that is not listed");
+    assert!(loops.assembly(&[1.0; 8], &mode).is_ok());
+    assert!(loops.tried(&[1.0; 8]).len() < loops.plan().count(), "the command says so");
 }

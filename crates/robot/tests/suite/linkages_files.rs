@@ -102,7 +102,7 @@ fn what_is_wrong_with_a_loop_has_its_place() {
     assert_eq!(
         of(short),
         [
-            "15:1: warning: not closed wherever it was tried; with all driven joints at 0: `loop 1` is open by 2.8000 m"
+            "15:1: warning: not closed wherever it was tried; with all driven joints at 0: `loop 1` is open by 2.8 m"
         ]
     );
     // One more joint in the loop: nothing determines it.

@@ -80,6 +80,21 @@ scenario("a wrist that is singular: what is lost, and the joints that move with 
   await until(async () => (await part(page).locator(".lost li, .still").count()) === 0, "nothing is lost");
 });
 
+scenario("an elbow that is stretched: the joints move without the hand at first, and there is no motion to go on with", async (page) => {
+  const q = [0, -60, 0, 30, 60, 0].map(radians);
+  const { engine } = await openRobot(page, "ur5", { q });
+  const words = await part(page).getByText(/^At first the hand stands still/).textContent();
+  const [, names, rates] = /ratio (.*) = (.*)\./s.exec(words);
+  const moved = (by) => {
+    const now = [...q];
+    names.split(" : ").forEach((name, k) => (now[Number(name.trim().slice(1)) - 1] += by * read(rates.split(" : ")[k])));
+    return Math.hypot(...handAt(engine, now).flatMap((row, r) => row.map((x, c) => x - handAt(engine, q)[r][c])));
+  };
+  assert.ok(moved(1e-3) < 1e-5 && moved(0.3) > 0.01, "not farther than to first order");
+  await until(() => page.evaluate(() => window.denavit.frames > 3), "it is drawn");
+  assert.equal(await part(page).getByRole("button", { name: "Move them so" }).count(), 0);
+});
+
 scenario("an arm with seven joints always has a motion without the hand", async (page) => {
   const { robot, engine } = await openRobot(page, "franka-panda");
   const words = await part(page).getByText(/the joints move in the ratio/).textContent();

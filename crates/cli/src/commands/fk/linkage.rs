@@ -33,6 +33,11 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
         return Err(Failure::Unsupported(format!("{option} for closed loops that are no serial chain")));
     }
     let mut out = anstream::stdout();
+    if arguments.symbolic && arguments.json {
+        return Err(Failure::Unsupported(
+            "--symbolic --json for closed loops that are no serial chain".into(),
+        ));
+    }
     if arguments.symbolic {
         write!(out, "{}", formulas(linkage, arguments.robot.tip.as_deref())?)?;
         return Ok(());
@@ -113,7 +118,20 @@ pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Vec<As
         let mode = loops.mode(Some(text)).map_err(|why| Failure::Usage(format!("--mode: {why}")))?;
         return Ok(vec![loops.assembly(q, &mode).map_err(|why| open(loops, &why))?]);
     }
-    let all = loops.assemblies(q);
+    let tried = loops.tried(q);
+    let count = loops.plan().count();
+    if count > tried.len() {
+        note(&format!(
+            "warning: {count} assembly modes: the first {} were tried; --mode asks for another",
+            tried.len()
+        ));
+    }
+    for (mode, why) in tried.iter().filter_map(|(mode, found)| Some((mode, found.as_ref().err()?))) {
+        if matches!(why, Open::Indeterminate { .. } | Open::NotFound) {
+            note(&format!("note: mode {mode}: {}", open_words(loops, why)));
+        }
+    }
+    let all: Vec<Assembly> = tried.into_iter().filter_map(|(_, found)| found.ok()).collect();
     if all.iter().any(|a| a.is_numeric) {
         note("note: found by Newton's method: there may be other assemblies");
     }
@@ -126,12 +144,18 @@ pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Vec<As
     Ok(all)
 }
 
-/// Why no assembly closes.
 fn open(loops: &Loops, why: &Open) -> Failure {
+    Failure::No(open_words(loops, why))
+}
+
+/// Why no assembly closes.
+fn open_words(loops: &Loops, why: &Open) -> String {
     let name = |closure: usize| loops.linkage().loop_name(closure);
-    Failure::No(match why {
-        Open::Gap { closure, gap } => {
-            format!("`{}` does not close here: it is open by {gap:.4} m", name(*closure))
+    match why {
+        Open::Gap { closure, metres } => {
+            let far = metres
+                .map_or(String::new(), |m| format!(": it is open by {}", reading(m, JointKind::Prismatic)));
+            format!("`{}` does not close here{far}", name(*closure))
         }
         Open::Indeterminate { closure } => format!(
             "`{}` is closed here by infinitely many configurations, or by none: the two places between which its rods stand coincide",
@@ -144,7 +168,7 @@ fn open(loops: &Loops, why: &Open) -> Failure {
                 name(*closure)
             )
         }
-    })
+    }
 }
 
 /// The driven joints: a pose of the file, values of all, or some by name, the others at 0.
@@ -171,7 +195,7 @@ pub fn configuration(linkage: &Linkage, text: Option<&str>) -> Result<Vec<f64>, 
         read.map_err(|why| bad(format!("{}: {why}", driven[k].symbol.name())))
     };
     if text.contains('=') {
-        let mut q = vec![0.0; driven.len()];
+        let mut q = vec![None; driven.len()];
         for part in parts {
             let (name, text) =
                 part.split_once('=').ok_or_else(|| bad(format!("`{part}`: write NAME=VALUE")))?;
@@ -180,9 +204,11 @@ pub fn configuration(linkage: &Linkage, text: Option<&str>) -> Result<Vec<f64>, 
             let k = driven.iter().position(|v| v.symbol == symbol);
             let k =
                 k.ok_or_else(|| bad(format!("no driven joint `{}`; there are {}", name.trim(), names())))?;
-            q[k] = one(k, text.trim())?;
+            if q[k].replace(one(k, text.trim())?).is_some() {
+                return Err(bad(format!("{} is given twice", driven[k].symbol.name())));
+            }
         }
-        return Ok(q);
+        return Ok(q.into_iter().map(Option::unwrap_or_default).collect());
     }
     if parts.len() != driven.len() {
         let (given, wanted) = (plural(parts.len(), "value"), plural(driven.len(), "driven joint"));
@@ -223,7 +249,9 @@ fn formulas(linkage: &Linkage, tip: Option<&str>) -> Result<String, Failure> {
             text += &format!("  t{}{} = {}\n", i + 1, j + 1, shown(e, false));
         }
     }
-    text += "\n  the forms of planar dyads are proved for all lengths and angles; e(φ) = (cos φ, sin φ), vectors multiply as complex numbers\n";
+    if plan.steps.iter().any(|s| !matches!(s.dyad, Dyad::Spherical(_))) {
+        text += "\n  the forms of planar dyads are proved for all lengths and angles; e(φ) = (cos φ, sin φ), vectors multiply as complex numbers\n";
+    }
     Ok(text)
 }
 
@@ -283,7 +311,7 @@ fn step_text(step: &Step) -> String {
             }
             if affine.len() == 1 {
                 line(
-                    "mode x: the mirror image of this at P: A·e(ψ1) = P·P·conj(A·e(ψ1)of =)/|P|², e(ψ2) = (P − A·e(ψ1))/B",
+                    "mode x: the mirror image of this at P: A·e(ψ1) = P·P·conj(A·e(ψ1) of =)/|P|², e(ψ2) = (P − A·e(ψ1))/B",
                 );
             }
             if affine.is_empty() {

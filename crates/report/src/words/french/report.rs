@@ -459,7 +459,9 @@ impl Report for French {
     }
 
     fn cause(&self, [right, wrong, still]: [usize; 3]) -> String {
-        say!(" en rendrait {right} justes et {wrong} fausses ; {still} resteraient fausses.")
+        let [right, wrong] = [counted(right, "juste", "justes"), counted(wrong, "fausse", "fausses")];
+        let still = counted(still, "resterait fausse", "resteraient fausses");
+        say!(" en rendrait {right} et {wrong} ; {still}.")
     }
 
     fn list(&self, list: List) -> String {
@@ -473,7 +475,8 @@ impl Report for French {
     }
 
     fn more(&self, number: usize) -> String {
-        say!("Et {number} autres ; `denavit check` les donne.")
+        let them = if number == 1 { "la" } else { "les" };
+        say!("Et {} ; `denavit check` {them} donne.", counted(number, "autre", "autres"))
     }
 
     fn printed(&self, line: usize, formula: &str) -> String {

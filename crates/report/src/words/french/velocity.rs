@@ -249,7 +249,7 @@ impl Velocity for French {
     }
 
     fn motion(&self, all: Vec<Math>) -> Line {
-        Line::new("dans le rapport ").list(all)
+        Line::new("dans le rapport ").numbers(all, self.between())
     }
 
     fn values_missing(&self, parameters: Vec<Math>) -> Line {

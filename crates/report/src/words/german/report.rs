@@ -465,7 +465,8 @@ impl Report for German {
     }
 
     fn cause(&self, [right, wrong, still]: [usize; 3]) -> String {
-        format!(" würde {right} davon richtig und {wrong} falsch machen; falsch blieben {still}.")
+        let still = if still == 1 { "bliebe eine".to_string() } else { format!("blieben {still}") };
+        format!(" würde {right} davon richtig und {wrong} falsch machen; falsch {still}.")
     }
 
     fn list(&self, list: List) -> String {
@@ -479,7 +480,8 @@ impl Report for German {
     }
 
     fn more(&self, number: usize) -> String {
-        format!("Und {number} weitere; `denavit check` führt sie auf.")
+        let more = if number == 1 { "eine".to_string() } else { number.to_string() };
+        format!("Und {more} weitere; `denavit check` führt sie auf.")
     }
 
     fn printed(&self, line: usize, formula: &str) -> String {

@@ -248,7 +248,7 @@ impl Velocity for German {
     }
 
     fn motion(&self, all: Vec<Math>) -> Line {
-        Line::new("im Verhältnis ").list(all)
+        Line::new("im Verhältnis ").numbers(all, self.between())
     }
 
     fn values_missing(&self, parameters: Vec<Math>) -> Line {

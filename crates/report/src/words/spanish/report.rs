@@ -461,7 +461,8 @@ impl Report for Spanish {
     fn cause(&self, [right, wrong, still]: [usize; 3]) -> String {
         let right = counted(right, "correcta", "correctas");
         let wrong = counted(wrong, "errónea", "erróneas");
-        format!(" haría {right} y {wrong} de ellas; {still} seguirían mal.")
+        let still = if still == 1 { "una seguiría".to_string() } else { format!("{still} seguirían") };
+        format!(" haría {right} y {wrong} de ellas; {still} mal.")
     }
 
     fn list(&self, list: List) -> String {
@@ -475,7 +476,12 @@ impl Report for Spanish {
     }
 
     fn more(&self, number: usize) -> String {
-        format!("Y {number} más; `denavit check` las enumera.")
+        let [more, them] = if number == 1 {
+            ["otra".to_string(), "la".into()]
+        } else {
+            [format!("{number} más"), "las".into()]
+        };
+        format!("Y {more}; `denavit check` {them} enumera.")
     }
 
     fn printed(&self, line: usize, formula: &str) -> String {

@@ -248,7 +248,7 @@ impl Velocity for Spanish {
     }
 
     fn motion(&self, all: Vec<Math>) -> Line {
-        Line::new("en la proporción ").list(all)
+        Line::new("en la proporción ").numbers(all, self.between())
     }
 
     fn values_missing(&self, parameters: Vec<Math>) -> Line {

@@ -23,6 +23,8 @@ pub struct ClosedChain {
     pub passive: Vec<(Symbol, Expr)>,
     /// True if this holds for the values of the parameters alone, which stand in the place of their names.
     pub is_of_values: bool,
+    /// Loops with passive joints that are not affine: nothing is proved of these, and they close only as far as they reach.
+    pub untested: Vec<String>,
     /// Passive joints with limits, which a chain has no place for.
     pub without_limits: Vec<String>,
     /// Frames of rows beside the chain that move with it: links that have no place in it.
@@ -144,12 +146,14 @@ impl Linkage {
         };
         let beside = (0..self.tree.rows.len()).filter(is_beside).map(|j| self.tree.frame_name(j)).collect();
         let meets = self.meets(&plan, &mode);
+        let untested = self.untested(&plan, &mode).map(|k| self.loop_name(k)).collect();
         chain.closed = Some(Box::new(ClosedChain {
             mode_name: self.mode_name(&plan, &mode).map(str::to_string),
             mode,
             driven: chain.variables.clone(),
             passive: affine.into_iter().filter_map(|(s, e)| Some((s, e?))).collect(),
             is_of_values,
+            untested,
             without_limits: limited.map(|v| v.symbol.name().to_string()).collect(),
             beside,
             meets,
@@ -213,12 +217,19 @@ impl Linkage {
         all
     }
 
+    /// The closures that hold passive joints which are not affine in this mode.
+    fn untested(&self, plan: &Plan, mode: &Mode) -> impl Iterator<Item = usize> {
+        let affine = plan.affine(mode);
+        let is_affine = move |s: Symbol| affine.iter().any(|a| a.0 == s && a.1.is_some());
+        (0..self.closures.len()).filter(move |&k| !self.symbols_of(k).into_iter().all(&is_affine))
+    }
+
     /// The first closure that is not proved to close in this mode, of those whose passive joints are all affine.
     pub fn first_open(&self, plan: &Plan, mode: &Mode) -> Option<usize> {
         let affine = plan.affine(mode);
         let value = |s: Symbol| affine.iter().find(|a| a.0 == s).and_then(|a| a.1);
-        let is_affine = |k: &usize| self.symbols_of(*k).into_iter().all(|s| value(s).is_some());
-        (0..self.closures.len()).filter(is_affine).find(|&k| {
+        let untested: Vec<usize> = self.untested(plan, mode).collect();
+        (0..self.closures.len()).filter(|k| !untested.contains(k)).find(|&k| {
             let [left, right] = self.ends(k).map(|x| x.map(|e| e.substitute(value)));
             let (left, right) = (left.matrix().concat(), right.matrix().concat());
             !left.into_iter().zip(right).all(|(a, b)| equal(a, b).is_equal())

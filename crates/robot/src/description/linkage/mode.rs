@@ -78,6 +78,8 @@ impl Sign {
 
 /// So many modes are listed.
 const MOST_MODES: usize = 64;
+/// So many beginnings of modes are tried for relations.
+const MOST_TRIED: usize = 4_096;
 
 impl Step {
     /// The signs that its solutions have.
@@ -183,15 +185,34 @@ impl Plan {
 
     /// The mode in which these relations hold, whatever the driven joints are; the usual one as far as they say nothing.
     fn of_relations(&self, relations: &[(Symbol, Expr)]) -> Option<Mode> {
-        let holds = |mode: &Mode| {
-            let affine = self.affine(mode);
-            relations.iter().all(|(symbol, told)| {
-                let found = affine.iter().find(|a| a.0 == *symbol).and_then(|a| a.1);
+        let mut left = MOST_TRIED;
+        let mut mode = Mode(vec![]);
+        self.chosen(relations, &mut mode, &mut left).then_some(mode)
+    }
+
+    /// Goes on with a mode step by step, so that what is found holds; true if it is whole.
+    fn chosen(&self, relations: &[(Symbol, Expr)], mode: &mut Mode, left: &mut usize) -> bool {
+        let affine = self.affine(mode);
+        let holds = |(symbol, told): &(Symbol, Expr)| match affine.iter().find(|a| a.0 == *symbol) {
+            // A later step finds it.
+            None => mode.0.len() < self.steps.len(),
+            Some((_, found)) => {
                 let rest = found.map(|e| within_turn(&Angle::of(e - *told)));
                 rest.is_some_and(|rest| rest == Angle::default())
-            })
+            }
         };
-        self.modes().into_iter().find(holds)
+        if *left == 0 || !relations.iter().all(holds) {
+            return false;
+        }
+        *left -= 1;
+        let Some(step) = self.steps.get(mode.0.len()) else { return true };
+        step.signs().iter().any(|&sign| {
+            mode.0.push(sign);
+            self.chosen(relations, mode, left) || {
+                mode.0.pop();
+                false
+            }
+        })
     }
 }
 

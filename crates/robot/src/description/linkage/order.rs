@@ -1,6 +1,6 @@
 //! The order in which the loops of a linkage are solved: each by a dyad, of which all but three joints are known.
 
-use super::affine::Affine;
+use super::affine::affine;
 use super::dyad::Complex;
 use super::plane::{Fault, Planar, Term};
 use super::spherical::{Between, Spherical};
@@ -293,7 +293,7 @@ impl Step {
         let dyad = match (&groups[..], &slides[..]) {
             ([a, b], []) => {
                 let (a, b) = (still(a), still(b));
-                let affine = Affine::of(&a, &b, &p);
+                let affine = affine(&a, &b, &p);
                 Dyad::Turns { a, b, p, affine }
             }
             ([a], &[slide]) => match (slides_in(a, slide), slides_in(&known, slide)) {

@@ -1,5 +1,5 @@
 // How the hand can move from where it is: the ellipsoid of its velocities, the directions that it has lost, and the joints
-// that move while it stands still. All by singular values of the Jacobian at the tool in base axes (Yoshikawa 1985); slides
+// that move while it stands still; all at first: whether it goes on so, the solver's families tell. All by singular values of the Jacobian at the tool in base axes (Yoshikawa 1985); slides
 // count with the arm's reach, so that all joint rates are alike, and lengths by the reach where they stand beside angles.
 
 import { computed } from "@preact/signals";
@@ -9,8 +9,8 @@ import { planeOf } from "../scene/planar.ts";
 import { engine, q, robot, scene } from "../state.ts";
 import { eigen, gram, transposed } from "./eigen.ts";
 
-/** Singular values below this share of a radian a second are as good as none. */
-const NONE = 1e-4;
+/** Singular values below this share of a radian a second are none but for rounding: they are roots of computed numbers. */
+const NONE = 2e-7;
 /** Below this a direction is nearly lost. */
 const NEAR = 0.02;
 

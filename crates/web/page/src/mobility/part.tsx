@@ -1,7 +1,7 @@
 // How the hand can move here, in words and numbers: the ellipsoid's axes, what is lost, and what moves without the hand.
 
 import type { Point } from "../engine/types.ts";
-import { look, panel, robot, show } from "../state.ts";
+import { answerNow, look, panel, robot, show } from "../state.ts";
 import { short } from "../units.ts";
 import { Button } from "../widgets/button.tsx";
 import { type Lost, mobility } from "./mobility.ts";
@@ -44,6 +44,8 @@ export function MobilityPart() {
   if (!found) return null;
   const [first] = found.still;
   const isOn = look.value.ellipsoid;
+  // Of an elbow that is stretched the ratio holds at first, and nowhere beside.
+  const hasFamily = (answerNow.value?.families.length ?? 0) > 0;
   return (
     <>
       <div class="row-of-buttons mobility">
@@ -64,9 +66,9 @@ export function MobilityPart() {
       )}
       {first && (
         <p class="fine still">
-          The hand stands still while{" "}
+          At first the hand stands still while{" "}
           {found.still.length === 1 ? `the joints move in the ratio ${ratio(first)}` : `the joints move in ${found.still.length} ways, for one ${ratio(first)}`}.{" "}
-          <Button label="Move them so" small hint="Along the self-motion, in the panel Hand" onClick={() => (panel.value = "hand")} />
+          {hasFamily && <Button label="Move them so" small hint="Along the self-motion, in the panel Hand" onClick={() => (panel.value = "hand")} />}
         </p>
       )}
     </>

@@ -67,7 +67,7 @@ function WithoutNetwork() {
       <p class="fine" role="status">
         {now === "yes" && "The page and all parts of its engine are on this device: it opens without a network, and can be installed as an application."}
         {now === "fetching" && "Fetching all parts of the page …"}
-        {now === "no" && "The page can stay on this device with all parts of its engine, about 3 MB, and open without a network."}
+        {now === "no" && "The page can stay on this device with all parts of its engine, about 4 MB, and open without a network."}
       </p>
       <div class="row-of-buttons">
         {now === "yes" ? <Button label="Keep it no longer" onClick={() => void letGo()} /> : <Button label="Keep it on this device" disabled={now === "fetching"} onClick={() => void keep()} />}
