@@ -15,10 +15,16 @@ pub struct Assemblies<'a> {
     pub frame: &'a str,
     /// The driven joints, q1 first, radians and metres.
     pub joints: &'a [f64],
+    /// How many modes there are: those that were asked for, or all.
+    pub modes: usize,
     /// Its name.
     pub robot: &'a str,
     /// The version.
     pub schema: Schema,
+    /// How many modes were tried.
+    pub tried: usize,
+    /// Modes of those that are neither closed nor open: closed in infinitely many ways or not at all, or not found.
+    pub undecided: Vec<String>,
 }
 
 /// One way to close a linkage.

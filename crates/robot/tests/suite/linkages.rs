@@ -498,16 +498,16 @@ fn what_is_not_proved_beside_a_chain_is_named() {
                 [[joints]]\nname = \"crank\"\ntheta = \"q1\"\n\
                 [[joints]]\nname = \"coupler\"\nd = 1\ntheta = \"p1\"\n\
                 [[joints]]\nname = \"other\"\nafter = \"base\"\nd = 3\ntheta = \"p2\"\n\
-                [[joints]]\nname = \"rod\"\nafter = \"crank\"\nd = 0.5\ntheta = \"p4\"\n\
-                [[joints]]\nname = \"rocker\"\nafter = \"base\"\nd = 2\ntheta = \"p5\"\n\
-                [[closures]]\nname = \"four\"\nleft = { after = \"coupler\", d = 3, theta = \"p3\" }\nright = { after = \"other\", d = 1 }\n\
+                [[joints]]\nname = \"rod\"\nafter = \"crank\"\nd = 0.5\ntheta = \"p3\"\n\
+                [[joints]]\nname = \"rocker\"\nafter = \"base\"\nd = 2\ntheta = \"p4\"\n\
+                [[closures]]\nname = \"four\"\nleft = { after = \"coupler\", d = 3, theta = \"p5\" }\nright = { after = \"other\", d = 1 }\n\
                 [[closures]]\nname = \"dyad\"\nleft = { after = \"rod\", d = 0.9, theta = \"p6\" }\nright = { after = \"rocker\", d = 0.7 }\n";
     let read = read_robot(text).unwrap_or_else(|f| panic!("{}", denavit::description::render(&f, "", text)));
     let Described::Linkage(linkage) = read.0 else { panic!("closed loops") };
     let chain = linkage.chain(None, Some("coupler"), None, Convention::Khalil).expect("a chain");
     let closed = chain.closed.expect("out of loops");
     assert_eq!(closed.untested, ["dyad"]);
-    assert_eq!(closed.passive.iter().map(|p| p.0.name().to_string()).collect::<Vec<_>>(), ["p1", "p2", "p3"]);
+    assert_eq!(closed.passive.iter().map(|p| p.0.name().to_string()).collect::<Vec<_>>(), ["p1", "p2", "p5"]);
 }
 
 /// Of a rhombus the parallelogram is what is meant, and a rhombus at rest is closed.
@@ -535,14 +535,14 @@ fn modes_beyond_those_that_are_listed() {
             "[[joints]]\nname = \"crank{k}\"\nafter = \"base\"\ntheta = \"q{}\"\n[[joints]]\nname = \"coupler{k}\"\nd = 1\ntheta = \"p{}\"\n\
              [[joints]]\nname = \"rocker{k}\"\nafter = \"base\"\nd = 3\ntheta = \"p{}\"\n",
             k + 1,
-            3 * k + 1,
-            3 * k + 2
+            2 * k + 1,
+            2 * k + 2
         );
     }
     for k in 0..8 {
         text += &format!(
             "[[closures]]\nleft = {{ after = \"coupler{k}\", d = 2.5, theta = \"p{}\" }}\nright = {{ after = \"rocker{k}\", d = 2 }}\n",
-            3 * k + 3
+            17 + k
         );
     }
     let read =

@@ -46,15 +46,19 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
     let q = configuration(linkage, arguments.q.as_deref())?;
     let (name, place) =
         loops.place(arguments.robot.tip.as_deref()).map_err(|why| Failure::Usage(why.to_string()))?;
-    let all = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?;
+    let found = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?;
+    let all = &found.all;
     let poses: Vec<Transform<f64>> = all.iter().map(|a| loops.pose(&place, &q, &a.passive)).collect();
     if arguments.json {
         let answer = Assemblies {
             assemblies: all.iter().zip(&poses).map(|(a, pose)| Assembled::of(a, pose)).collect(),
             frame: &name,
             joints: &q,
+            modes: found.modes,
             robot: &linkage.tree.name,
             schema: Schema,
+            tried: found.tried,
+            undecided: found.undecided.iter().map(Mode::to_string).collect(),
         };
         writeln!(out, "{}", denavit_wire::text(&answer))?;
         return Ok(());
@@ -63,7 +67,7 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
     text += &format!(
         "{}\n\n{}",
         plural(all.len(), "assembly").replace("assemblys", "assemblies"),
-        passives(linkage, &all)
+        passives(linkage, all)
     );
     for a in all.iter().filter(|a| !a.flat.is_empty()) {
         let names: Vec<String> = a.flat.iter().map(|&k| linkage.loop_name(k)).collect();
@@ -109,29 +113,45 @@ pub fn passives(linkage: &Linkage, all: &[Assembly]) -> String {
     table(&header, &align, &all.iter().map(row).collect::<Vec<_>>())
 }
 
-/// The assembly of the mode that is asked for, or all that close.
+/// The assemblies of the modes that were asked for.
+pub struct Found {
+    /// In the order of their modes.
+    pub all: Vec<Assembly>,
+    /// How many modes there are, and how many of them were tried.
+    modes: usize,
+    tried: usize,
+    /// Those that are neither closed nor open.
+    undecided: Vec<Mode>,
+}
+
+/// The assembly of the mode that is asked for, or all that close; what may be missing is said.
 ///
 /// # Errors
 /// If there is no such mode, or nothing closes.
-pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Vec<Assembly>, Failure> {
+pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Found, Failure> {
     if let Some(text) = mode {
         let mode = loops.mode(Some(text)).map_err(|why| Failure::Usage(format!("--mode: {why}")))?;
-        return Ok(vec![loops.assembly(q, &mode).map_err(|why| open(loops, &why))?]);
+        let all = vec![loops.assembly(q, &mode).map_err(|why| open(loops, &why))?];
+        return Ok(Found { all, modes: 1, tried: 1, undecided: vec![] });
     }
-    let tried = loops.tried(q);
-    let count = loops.plan().count();
-    if count > tried.len() {
+    let outcomes = loops.tried(q);
+    let (modes, tried) = (loops.plan().count(), outcomes.len());
+    if modes > tried {
         note(&format!(
-            "warning: {count} assembly modes: the first {} were tried; --mode asks for another",
-            tried.len()
+            "warning: {modes} assembly modes: the first {tried} were tried; --mode asks for another"
         ));
     }
-    for (mode, why) in tried.iter().filter_map(|(mode, found)| Some((mode, found.as_ref().err()?))) {
-        if matches!(why, Open::Indeterminate { .. } | Open::NotFound) {
-            note(&format!("note: mode {mode}: {}", open_words(loops, why)));
+    let (mut all, mut undecided) = (vec![], vec![]);
+    for (mode, outcome) in outcomes {
+        match outcome {
+            Ok(assembly) => all.push(assembly),
+            Err(why @ (Open::Indeterminate { .. } | Open::NotFound)) => {
+                note(&format!("note: mode {mode}: {}", open_words(loops, &why)));
+                undecided.push(mode);
+            }
+            Err(_) => {}
         }
     }
-    let all: Vec<Assembly> = tried.into_iter().filter_map(|(_, found)| found.ok()).collect();
     if all.iter().any(|a| a.is_numeric) {
         note("note: found by Newton's method: there may be other assemblies");
     }
@@ -141,7 +161,7 @@ pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Vec<As
             .assembly(q, &usual)
             .map_or_else(|why| open(loops, &why), |_| Failure::No("no assembly closes here".into())));
     }
-    Ok(all)
+    Ok(Found { all, modes, tried, undecided })
 }
 
 fn open(loops: &Loops, why: &Open) -> Failure {

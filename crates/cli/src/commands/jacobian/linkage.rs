@@ -41,7 +41,7 @@ pub fn run(arguments: &JacobianArguments, linkage: &Linkage) -> Result<(), Failu
     let q = configuration(linkage, arguments.q.as_deref())?;
     let (name, place) =
         loops.place(arguments.robot.tip.as_deref()).map_err(|why| Failure::Usage(why.to_string()))?;
-    let all = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?;
+    let all = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?.all;
     let mut out = anstream::stdout();
     if arguments.json {
         for a in &all {
