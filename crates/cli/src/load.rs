@@ -5,16 +5,16 @@ mod rows;
 mod urdf;
 
 pub use denavit_load::{Around, contents, frame, is_tree, joint};
-pub use linkage::{linkage, loops, without_chain};
+use linkage::closed_tree;
+pub use linkage::{WholeLinkage, linkage, loops, whole, without_chain};
 pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
 use crate::failure::Failure;
 use crate::terminal::{decimals, note};
-use denavit::description::linkage::Plan;
 use denavit::description::{
-    Described, Description, Diagnostic, Linkage, MAX_BYTES, Measure, Mechanism, RowTree, Severity,
-    TableOptions, read_robot, read_table_robot, read_value, write_toml,
+    Described, Description, Diagnostic, MAX_BYTES, Measure, Mechanism, RowTree, Severity, TableOptions,
+    read_robot, read_table_robot, read_value, write_toml,
 };
 use denavit_load::{
     Content, Contents, ENDINGS, Finding, Kind, Options, Problem, catalogue_name, close_names, listed,
@@ -252,19 +252,6 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
         return Err(Failure::Usage("--set is for one chain: name its end with --tip".into()));
     }
     Ok(Some(tree))
-}
-
-/// The tree of a linkage of which all passive joints are couplings of driven ones, proved, in the mode that is asked for.
-fn closed_tree(arguments: &RobotArguments, linkage: &Linkage) -> Option<RowTree> {
-    let numbers = linkage.in_numbers();
-    [linkage, &numbers].into_iter().find_map(|linkage| {
-        let plan = Plan::of(linkage);
-        let mode = linkage.mode(&plan, arguments.mode.as_deref()).ok()?;
-        let (tree, is_left_out) = linkage.coupled(&plan, &mode);
-        let all_affine = plan.affine(&mode).iter().all(|a| a.1.is_some()) && plan.unsolved.is_empty();
-        let is_whole = !is_left_out.contains(&true) && all_affine;
-        (is_whole && linkage.first_open(&plan, &mode).is_none()).then_some(tree)
-    })
 }
 
 /// A whole tree.

@@ -22,7 +22,7 @@ mod text;
 
 pub use code::{Code, Instruction, NONE, Opcode};
 pub use compose::Composer;
-pub use domain::{Domain, Extended, Interval, Residue};
+pub use domain::{Dependency, Domain, Extended, Interval, Residue};
 pub use evaluate::{Arithmetic, Batch, Block, Function, Isa, MissingValue, Real, Scalar, values};
 pub use graph::{COUNTING_RULE, Count, Graph, Op, Stage, Value, Walk};
 pub use pairs::{PairReason, PairRefusal};

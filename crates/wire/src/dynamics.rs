@@ -25,8 +25,14 @@ pub struct Answer {
     pub gravity: Vec<f64>,
     /// A(q), row by row.
     pub inertia: Vec<Vec<f64>>,
+    /// The assembly mode of closed loops of which not all passive joints are couplings.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mode: Option<String>,
     /// The momentum.
     pub momentum: Momentum,
+    /// The passive joints of such loops, p1 first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passive: Option<Vec<f64>>,
     /// Work by time.
     pub power: Power,
     /// The joint variables.

@@ -2,7 +2,7 @@
 
 use crate::Schema;
 use crate::pose::{Matrix, matrix};
-use denavit::closure::Assembly;
+use denavit::closure::{Assembly, ClosedAnswer, ClosedSolution};
 use denavit::geometry::Transform;
 use serde::Serialize;
 
@@ -81,4 +81,72 @@ pub struct ClosedRates<'a> {
     pub robot: &'a str,
     /// The version.
     pub schema: Schema,
+}
+
+/// What was found of the inverse problem of a linkage.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Reached<'a> {
+    /// Whether the solutions are by formulas alone.
+    pub closed_form: bool,
+    /// Whether these are all.
+    pub complete: bool,
+    /// The frame that is to be there.
+    pub frame: &'a str,
+    /// `pose` or `position`.
+    pub goal: &'static str,
+    /// Whether the pose is out of the plane in which the frame moves.
+    pub out_of_plane: bool,
+    /// The pose.
+    pub pose: Matrix,
+    /// Its name.
+    pub robot: &'a str,
+    /// The version.
+    pub schema: Schema,
+    /// The solutions.
+    pub solutions: Vec<Reaching>,
+}
+
+/// A configuration of a linkage in which a frame is where it is wanted.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Reaching {
+    /// The driven joints, q1 first, radians and metres.
+    pub joints: Vec<f64>,
+    /// The assembly mode; null where it was not told.
+    pub mode: Option<String>,
+    /// The passive joints, p1 first.
+    pub passive: Vec<f64>,
+    /// How far closures are open, and the frame is off.
+    pub residual: f64,
+    /// Whether it is not isolated: singular, or one of a family.
+    pub singular: bool,
+}
+
+impl<'a> Reached<'a> {
+    /// An answer for a frame of a linkage.
+    pub fn of(
+        robot: &'a str,
+        frame: &'a str,
+        goal: &'static str,
+        pose: &Transform<f64>,
+        answer: &ClosedAnswer,
+    ) -> Self {
+        let one = |s: &ClosedSolution| Reaching {
+            joints: s.q.clone(),
+            mode: s.mode.as_ref().map(ToString::to_string),
+            passive: s.passive.clone(),
+            residual: s.residual,
+            singular: s.is_singular,
+        };
+        Reached {
+            closed_form: answer.is_closed_form,
+            complete: answer.is_complete,
+            frame,
+            goal,
+            out_of_plane: answer.is_out_of_plane,
+            pose: matrix(pose),
+            robot,
+            schema: Schema,
+            solutions: answer.solutions.iter().map(one).collect(),
+        }
+    }
 }

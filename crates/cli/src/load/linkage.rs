@@ -5,10 +5,14 @@ use crate::arguments::RobotArguments;
 use crate::failure::{Failure, without_values};
 use crate::terminal::note;
 use denavit::closure::{Loops, findings};
+use denavit::description::linkage::{Plan, is_passive};
 use denavit::description::{
-    Convention, Described, Description, Linkage, MAX_BYTES, NotCoupled, Severity, read_par, read_robot,
+    ClosedChain, Convention, Described, Description, Linkage, MAX_BYTES, NotCoupled, Row, RowTree, Severity,
+    read_par, read_robot,
 };
+use denavit::geometry::Transform;
 use denavit_load::{Content, Kind, catalogue_name, listed};
+use denavit_symbolic::{Expr, Symbol};
 
 /// The linkage that the arguments name, with the values that they set, if it is one; nothing is said of it, and what cannot be read is
 /// none.
@@ -84,6 +88,95 @@ pub fn set(arguments: &RobotArguments, linkage: &mut Linkage) -> Result<(), Fail
 /// If a length has no value.
 pub fn loops(arguments: &RobotArguments, linkage: &Linkage) -> Result<Loops, Failure> {
     Loops::new(linkage).map_err(|missing| without_values(&linkage.all_rows(), &arguments.robot, &missing))
+}
+
+/// A linkage of which all passive joints are couplings of driven ones.
+pub struct WholeLinkage {
+    /// Its rows, with joints counted as in the chain of it.
+    pub tree: RowTree,
+    /// The row at which the chain ends, and the tool there.
+    pub tip: Option<usize>,
+    /// The end of the chain in the frame of that row.
+    pub tool: Transform<Expr>,
+    /// Passive joints with friction or a rotor, which are left out.
+    pub left_out: Vec<String>,
+}
+
+/// The linkage that the arguments name, with the links beside its chain, if all its passive joints are couplings of driven ones and these
+/// are all on the chain, and some links are beside it: the chain, and what is around it.
+///
+/// # Errors
+/// If a value cannot be set, or there is no such mode or frame.
+pub fn whole(arguments: &RobotArguments) -> Result<Option<(Description, Around, WholeLinkage)>, Failure> {
+    if arguments.base.is_some() {
+        return Ok(None);
+    }
+    let Some(linkage) = linkage(arguments)? else { return Ok(None) };
+    let content = Content::Rows(Described::Linkage(Box::new(linkage.clone())));
+    let (description, around) = rows::taken(arguments, content)?;
+    let Around::Rows(chain) = &around else { return Ok(None) };
+    let Some(closed) = chain.closed.as_ref().filter(|c| !c.beside.is_empty()) else { return Ok(None) };
+    let Some(whole) = with_beside(arguments, &linkage, closed) else { return Ok(None) };
+    let name = arguments.robot.as_str();
+    if catalogue_name(name).is_none_or(|n| listed(&n).is_none()) {
+        let text = contents(name, MAX_BYTES).unwrap_or_default();
+        note(render(&findings(&linkage), name, &text).trim_end());
+    }
+    note(&format!("note: {}", rows::couplings(closed)));
+    note(&format!(
+        "note: the whole linkage, the links beside the chain with it: {}",
+        closed.beside.join(", ")
+    ));
+    if !whole.left_out.is_empty() {
+        let names = whole.left_out.join(", ");
+        note(&format!("warning: friction and rotors of passive joints ({names}) have no part in it"));
+    }
+    Ok(Some((description, around, whole)))
+}
+
+/// The whole of a linkage of which a chain was taken; nothing where not all driven joints are on the chain, or not all passive joints are
+/// couplings.
+fn with_beside(arguments: &RobotArguments, linkage: &Linkage, of: &ClosedChain) -> Option<WholeLinkage> {
+    if linkage.driven().len() != of.driven.len() {
+        return None; // some are beside the chain
+    }
+    let mut tree = closed_tree(arguments, linkage)?;
+    let end = linkage.tree.end(None, arguments.tip.as_deref()).ok()?;
+    let frame = linkage.tree.frames.iter().find(|f| f.name == end);
+    let (tip, tool) = match frame {
+        Some(f) => (f.on, f.pose),
+        None => (linkage.tree.row_of(&end), Transform::identity()),
+    };
+    let drives = |row: &Row| row.rotor.is_some() || row.viscous.is_some() || row.coulomb.is_some();
+    let left_out = (0..linkage.tree.rows.len()).filter(|&j| {
+        let row = &linkage.tree.rows[j];
+        drives(row) && row.variable.is_some_and(|v| is_passive(v.symbol))
+    });
+    let left_out = left_out.map(|j| linkage.tree.frame_name(j)).collect();
+    let name =
+        |s: Symbol| of.driven.iter().position(|o| *o == s).map(|k| Symbol::new(&format!("q{}", k + 1)));
+    for row in &mut tree.rows {
+        for cell in [&mut row.theta, &mut row.d] {
+            *cell = cell.substitute(|s| name(s).map(Expr::from));
+        }
+        if let Some(v) = &mut row.variable {
+            v.symbol = name(v.symbol).unwrap_or(v.symbol);
+        }
+    }
+    Some(WholeLinkage { tree, tip, tool, left_out })
+}
+
+/// The tree of a linkage of which all passive joints are couplings of driven ones, proved, in the mode that is asked for.
+pub(super) fn closed_tree(arguments: &RobotArguments, linkage: &Linkage) -> Option<RowTree> {
+    let numbers = linkage.in_numbers();
+    [linkage, &numbers].into_iter().find_map(|linkage| {
+        let plan = Plan::of(linkage);
+        let mode = linkage.mode(&plan, arguments.mode.as_deref()).ok()?;
+        let (tree, is_left_out) = linkage.coupled(&plan, &mode);
+        let all_affine = plan.affine(&mode).iter().all(|a| a.1.is_some()) && plan.unsolved.is_empty();
+        let is_whole = !is_left_out.contains(&true) && all_affine;
+        (is_whole && linkage.first_open(&plan, &mode).is_none()).then_some(tree)
+    })
 }
 
 /// The chain of a linkage.

@@ -20,6 +20,12 @@ pub fn chain(arguments: &RobotArguments, content: Content) -> Result<(Descriptio
     if let Around::Rows(chain) = &around {
         if let Some(closed) = &chain.closed {
             note(&format!("note: {}", couplings(closed)));
+            if !closed.beside.is_empty() {
+                note(&format!(
+                    "note: links beside the chain have no masses in it: {}",
+                    closed.beside.join(", ")
+                ));
+            }
         }
         let joints = description.variables().len();
         let joints = format!("{joints} joint{}", if joints == 1 { "" } else { "s" });
@@ -47,7 +53,7 @@ pub fn taken(arguments: &RobotArguments, content: Content) -> Result<(Descriptio
         NotTaken::NoChain(why) => no_chain(name, &why),
         NotTaken::NotCoupled(NotCoupled::NoMode(why)) => Failure::Usage(format!("--mode: {name}: {why}")),
         NotTaken::NotCoupled(why) => {
-            let hint = "`show`, `fk` and `jacobian` serve it as it is";
+            let hint = "`show`, `fk`, `jacobian`, `ik` and `dynamics` serve it as it is";
             Failure::Unsupported(format!("{name}: {why}\n  = hint: {hint}"))
         }
         NotTaken::NoLoops => Failure::Usage(format!("--mode is for closed loops, and {name} has none")),
@@ -59,7 +65,7 @@ pub fn taken(arguments: &RobotArguments, content: Content) -> Result<(Descriptio
 }
 
 /// How a chain was taken out of closed loops.
-fn couplings(closed: &ClosedChain) -> String {
+pub fn couplings(closed: &ClosedChain) -> String {
     let mode = match (&closed.mode_name, closed.mode.to_string().as_str()) {
         (_, "") => String::new(),
         (Some(name), signs) => format!(" in the mode {name} ({signs})"),
@@ -82,10 +88,6 @@ fn couplings(closed: &ClosedChain) -> String {
             "\nnote: its loops are flat, and modes meet, where {}: a parallel singularity",
             zeros.join(" or ")
         );
-    }
-    if !closed.beside.is_empty() {
-        let names = closed.beside.join(", ");
-        text += &format!("\nnote: links beside the chain have no masses in it: {names}");
     }
     let renamed = closed.driven.iter().enumerate().filter_map(|(k, s)| {
         let own = format!("q{}", k + 1);

@@ -6,7 +6,7 @@ mod residue;
 
 pub use extended::Extended;
 pub use interval::Interval;
-pub use residue::Residue;
+pub use residue::{Dependency, Residue};
 
 use denavit_symbolic::Rational;
 

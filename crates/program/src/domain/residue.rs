@@ -184,27 +184,64 @@ impl Residue {
 
     /// The rank of a matrix of such numbers; `None` if one is undefined.
     pub fn rank(rows: &[Vec<Residue>]) -> Option<usize> {
+        let columns = rows.first().map_or(0, Vec::len);
+        Some(columns - Self::dependencies(rows)?.len())
+    }
+
+    /// The columns of a matrix that depend on those before them, each with its coefficients in the others; `None` if an entry is undefined.
+    pub fn dependencies(rows: &[Vec<Residue>]) -> Option<Vec<Dependency>> {
         let mut rows: Vec<Vec<u64>> =
             rows.iter().map(|row| row.iter().map(Residue::get).collect()).collect::<Option<_>>()?;
         let columns = rows.first().map_or(0, Vec::len);
-        let mut rank = 0;
+        let (mut pivots, mut found): (Vec<usize>, Vec<Dependency>) = (vec![], vec![]);
         for column in 0..columns {
-            let Some(pivot) = (rank..rows.len()).find(|&r| rows[r][column] != 0) else { continue };
+            let rank = pivots.len();
+            let Some(pivot) = (rank..rows.len()).find(|&r| rows[r][column] != 0) else {
+                let entries = pivots.iter().zip(&rows).map(|(&p, row)| (p, Residue::new(row[column])));
+                let of = entries.filter(|(_, e)| e.value != Some(0)).collect();
+                found.push(Dependency { column, of });
+                continue;
+            };
             rows.swap(rank, pivot);
             let over = inverse(rows[rank][column])?;
+            rows[rank].iter_mut().skip(column).for_each(|entry| *entry = times(*entry, over));
             let leading = rows[rank].clone();
-            for row in &mut rows[rank + 1..] {
-                let factor = times(row[column], over);
-                if factor != 0 {
+            for (r, row) in rows.iter_mut().enumerate() {
+                let factor = row[column];
+                if r != rank && factor != 0 {
                     for (entry, &l) in row.iter_mut().zip(&leading).skip(column) {
                         *entry = plus(*entry, minus(times(factor, l)));
                     }
                 }
             }
-            rank += 1;
+            pivots.push(column);
         }
-        Some(rank)
+        Some(found)
     }
+
+    /// The fraction of the least size with this residue, if it is far smaller than that of a random one would be.
+    pub fn lifted(&self) -> Option<Rational> {
+        const SMALL: i64 = 1 << 24;
+        // Euclid's algorithm, stopped half way: each remainder is the value times the number beside it.
+        let (mut r, mut next) = (i64::try_from(P).ok()?, i64::try_from(self.get()?).ok()?);
+        let (mut t, mut by) = (0_i64, 1_i64);
+        while next > SMALL {
+            let whole = r / next;
+            (r, next) = (next, r - whole * next);
+            (t, by) = (by, t - whole * by);
+        }
+        let (over, under) = if by < 0 { (-next, -by) } else { (next, by) };
+        (under > 0 && under <= SMALL).then(|| Rational::new(over, under))
+    }
+}
+
+/// A column that depends on others.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Dependency {
+    /// Its number.
+    pub column: usize,
+    /// Columns before it that do not depend on others, with the coefficients of which it is the sum.
+    pub of: Vec<(usize, Residue)>,
 }
 
 impl Domain for Residue {

@@ -2,7 +2,7 @@
 
 use crate::document::{Block, Factor, Line, Math, Proof};
 use crate::words::{Tongue, Wording};
-use denavit::description::{Convention, Description, JointKind, Mechanism, Row};
+use denavit::description::{Convention, Description, JointKind, Mechanism, Row, RowTree};
 use denavit::dynamics::{DynamicModel, Fate, Ground, Recursion, given};
 use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Expr, Symbol};
@@ -46,16 +46,26 @@ pub fn dynamics_document(d: &Description, model: &DynamicModel, language: Tongue
     blocks
 }
 
-/// The same of a whole tree: its links, base parameters, the torques as a program.
-pub fn tree_dynamics_document(m: &Mechanism, model: &DynamicModel, language: Tongue) -> Vec<Block> {
+/// The names of the model of a tree of rows.
+pub fn rows_dynamics_vocabulary(tree: &RowTree, model: &DynamicModel) -> Vocabulary {
+    with_names(tree.all_rows().vocabulary(), model)
+}
+
+/// The same of a whole tree, of this name and with joints of these: its links, base parameters, the torques as a program.
+pub fn tree_dynamics_document(
+    name: &str,
+    joints: &[String],
+    model: &DynamicModel,
+    language: Tongue,
+) -> Vec<Block> {
     let words = language.words();
     let arm = &model.formulas.dynamics;
-    let links = arm.links.iter().enumerate().map(|(k, link)| {
-        let joint = &m.joints[link.row].name;
-        Line::new(words.link_of_tree(k + 1, joint, link.parent.map(|p| p + 1)))
-    });
+    let links =
+        arm.links.iter().enumerate().map(|(k, link)| {
+            Line::new(words.link_of_tree(k + 1, &joints[link.row], link.parent.map(|p| p + 1)))
+        });
     let mut blocks = vec![
-        Block::Heading(1, Line::new(words.dynamics_title(&m.name))),
+        Block::Heading(1, Line::new(words.dynamics_title(name))),
         Block::List(links.collect()),
         paragraph(words.link_parameters(false)),
         Block::Paragraph(words.gravity_is(arm.gravity.0.map(Math::Expr))),

@@ -9,7 +9,7 @@ mod velocity;
 
 pub use dynamics::{
     dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
-    tree_dynamics_document, tree_dynamics_vocabulary,
+    rows_dynamics_vocabulary, tree_dynamics_document, tree_dynamics_vocabulary,
 };
 pub(crate) use inverse::uses_letters;
 pub use inverse::{

@@ -2,16 +2,19 @@
 //!
 //! - [`Loops`]: a linkage to compute with; [`Assembly`]: one way to close it.
 //! - [`Loops::rates`]: the velocities of passive joints, the Jacobian of a frame, both kinds of singularities.
+//! - [`ClosedInverse`]: the configurations in which a frame is where it is wanted.
 //! - [`findings`]: what is to be said of a linkage: its mobility, and whether it closes.
 
 mod dyads;
 mod findings;
+mod inverse;
 mod linear;
 mod newton;
 mod rates;
 
 pub use dyads::Met;
 pub use findings::{Mobility, compare, findings, mobility};
+pub use inverse::{ClosedAnswer, ClosedInverse, ClosedSolution, NoInverse};
 pub use rates::Rates;
 
 use crate::description::linkage::{Linkage, Mode, NoMode, Plan, is_passive};
@@ -236,6 +239,14 @@ impl Loops {
         let residual = apart.into_iter().fold(0.0, f64::max);
         let is_numeric = !self.rest.is_empty();
         Ok(Assembly { mode: mode.clone(), passive: all.split_off(q.len()), residual, flat, is_numeric })
+    }
+
+    /// Whether all loops close there.
+    ///
+    /// # Panics
+    /// If there is not one value for each joint.
+    pub fn is_closed(&self, q: &[f64], p: &[f64]) -> bool {
+        self.first_apart(&self.all(q, p)).is_none()
     }
 
     /// All variables: the driven and the passive ones.

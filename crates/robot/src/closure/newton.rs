@@ -63,7 +63,7 @@ impl Loops {
     }
 
     /// For each closure the twist from the right frame to the left one, lengths by the size, as [`Loops::constraint`] has them.
-    fn errors(&self, x: &[f64]) -> Vec<f64> {
+    pub(super) fn errors(&self, x: &[f64]) -> Vec<f64> {
         let frames = self.placed(x);
         let one = |sides: &[_; 2]| {
             let [a, b]: [Transform<f64>; 2] = [&sides[0], &sides[1]].map(|s| self.side(&frames, s, x));

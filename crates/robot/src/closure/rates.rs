@@ -19,6 +19,14 @@ pub struct Rates {
     pub free_joints: Vec<usize>,
 }
 
+/// What closures allow of motions.
+pub(crate) struct Allowed {
+    /// Rates of all joints: so many independent motions.
+    pub free: Vec<Vec<f64>>,
+    /// Accelerations with which the closures hold, one of many.
+    pub drift: Vec<f64>,
+}
+
 /// Pivots below this, by the largest, count as 0.
 pub(super) const RANK: f64 = 1e-9;
 
@@ -69,6 +77,90 @@ impl Loops {
         }
     }
 
+    /// G: how the passive joints move with the driven ones, a row for each passive joint.
+    ///
+    /// # Errors
+    /// The passive joints, from 0, that are left free where W_p is singular.
+    ///
+    /// # Panics
+    /// If there is not one value for each joint.
+    pub fn passive_rates(&self, q: &[f64], p: &[f64]) -> Result<Vec<Vec<f64>>, Vec<usize>> {
+        let w = self.constraint(&self.all(q, p));
+        let n = q.len();
+        let factors = Factors::of(&w[n..], RANK);
+        if factors.rank() < p.len() {
+            return Err(factors.dependent());
+        }
+        let solved: Vec<Vec<f64>> = w[..n].iter().map(|c| factors.solve(c)).collect();
+        Ok((0..p.len()).map(|i| solved.iter().map(|c| -c[i]).collect()).collect())
+    }
+
+    /// Ẇ v: how fast the frames of the closures would part if no joint accelerated, as [`Loops::constraint`] has them.
+    fn parting(&self, all: &[f64], rates: &[f64]) -> Vec<f64> {
+        let frames = self.placed(all);
+        let mut parting = vec![0.0; 6 * self.sides.len()];
+        for (k, sides) in self.sides.iter().enumerate() {
+            for (sign, (link, on)) in [1.0, -1.0].into_iter().zip(sides) {
+                let mut twists: Vec<([f64; 6], usize)> = vec![];
+                self.along(&frames, *on, Some(link), &mut |twist, variable| twists.push((twist, variable)));
+                // From the base on: a twist changes as the body that carries its axis moves.
+                let (mut v, mut w) = (Vector::zero(), Vector::zero());
+                for (s, variable) in twists.into_iter().rev() {
+                    let rate = rates[variable];
+                    let (linear, angular) = (Vector([s[0], s[1], s[2]]), Vector([s[3], s[4], s[5]]));
+                    let change = (w.cross(linear) + v.cross(angular)).scale(rate / self.size);
+                    let turn = w.cross(angular).scale(rate);
+                    for i in 0..3 {
+                        parting[6 * k + i] += sign * change[i];
+                        parting[6 * k + 3 + i] += sign * turn[i];
+                    }
+                    (v, w) = (v + linear.scale(rate), w + angular.scale(rate));
+                }
+            }
+        }
+        parting
+    }
+
+    /// The accelerations of all joints with those of the first `driven` at 0: the closures hold.
+    pub(crate) fn drift(&self, all: &[f64], rates: &[f64], driven: usize) -> Vec<f64> {
+        let w = self.constraint(all);
+        let passive = Factors::of(&w[driven..], RANK).solve(&self.parting(all, rates));
+        vec![0.0; driven].into_iter().chain(passive.into_iter().map(|x| -x)).collect()
+    }
+
+    /// The motions that the closures allow, none driven; nothing where these have lost rank, so that there are more of them than there
+    /// are driven joints.
+    pub(crate) fn allowed(&self, all: &[f64], rates: &[f64]) -> Option<Allowed> {
+        let w = self.constraint(all);
+        let factors = Factors::of(&w, RANK);
+        let dependent = factors.dependent();
+        if dependent.len() > self.driven.len() {
+            return None;
+        }
+        let motion = |&j: &usize| {
+            let mut motion: Vec<f64> = factors.solve(&w[j]).into_iter().map(|x| -x).collect();
+            motion[j] = 1.0;
+            motion
+        };
+        let drift = factors.solve(&self.parting(all, rates)).into_iter().map(|x| -x).collect();
+        Some(Allowed { free: dependent.iter().map(motion).collect(), drift })
+    }
+
+    /// Puts all joints, and their rates, back to where the closures hold: by so little as an integrator is off.
+    pub(crate) fn settle(&self, all: &mut [f64], rates: &mut [f64]) {
+        for _ in 0..2 {
+            let step = Factors::of(&self.constraint(all), RANK).solve(&self.errors(all));
+            all.iter_mut().zip(step).for_each(|(x, s)| *x -= s);
+        }
+        let w = self.constraint(all);
+        let mut off = vec![0.0; 6 * self.sides.len()];
+        for (column, rate) in w.iter().zip(rates.iter()) {
+            off.iter_mut().zip(column).for_each(|(o, c)| *o += c * rate);
+        }
+        let step = Factors::of(&w, RANK).solve(&off);
+        rates.iter_mut().zip(step).for_each(|(x, s)| *x -= s);
+    }
+
     /// How the passive joints and a frame, on a row with a pose there, move with the driven joints.
     ///
     /// # Panics
@@ -76,15 +168,12 @@ impl Loops {
     pub fn rates(&self, place: &Place, q: &[f64], p: &[f64]) -> Rates {
         let all = self.all(q, p);
         let n = q.len();
-        let w = self.constraint(&all);
-        let factors = Factors::of(&w[n..], RANK);
-        let free = p.len() - factors.rank();
-        let free_joints = factors.dependent();
-        if free > 0 {
-            return Rates { passive: None, frame: None, free, free_joints };
-        }
-        let solved: Vec<Vec<f64>> = w[..n].iter().map(|c| factors.solve(c)).collect();
-        let g: Vec<Vec<f64>> = (0..p.len()).map(|i| solved.iter().map(|c| -c[i]).collect()).collect();
+        let g = match self.passive_rates(q, p) {
+            Ok(g) => g,
+            Err(free_joints) => {
+                return Rates { passive: None, frame: None, free: free_joints.len(), free_joints };
+            }
+        };
         let frames = self.placed(&all);
         let mut spatial = vec![[0.0; 6]; all.len()];
         self.along(&frames, place.0, None, &mut |twist, variable| {
@@ -101,6 +190,6 @@ impl Loops {
             let v = Vector([sum[0], sum[1], sum[2]]) + w.cross(origin);
             [v[0], v[1], v[2], w[0], w[1], w[2]]
         };
-        Rates { frame: Some((0..n).map(column).collect()), passive: Some(g), free, free_joints }
+        Rates { frame: Some((0..n).map(column).collect()), passive: Some(g), free: 0, free_joints: vec![] }
     }
 }

@@ -5,6 +5,7 @@
 //! proved by a rank: at points modulo a prime the columns of the torques by the names are as many as the names, and a rank modulo
 //! a prime is no larger than the rank.
 
+use super::dependent::without_dependent;
 use super::grouping::{Grouped, grouped};
 use super::model::{Formulas, Wrench};
 use super::newton_euler::{Motion, backward, moment, motions};
@@ -114,7 +115,11 @@ impl BaseModel {
         for p in parameters.iter_mut().filter(|p| p.is_grouped) {
             p.value = readable::simplify(p.value, order).map_or(p.value, |s| s.expr);
         }
-        Self::in_parameters(formulas, named, parameters)
+        let model = Self::in_parameters(formulas, named, parameters);
+        match model.minimality {
+            Minimality::AtLeast(_) => without_dependent(formulas, order, model),
+            Minimality::Proved | Minimality::Unknown => model,
+        }
     }
 
     /// With links whose numbers are sums of base parameters.
@@ -273,15 +278,30 @@ fn minimality(program: &Program, parameters: &[BaseParameter]) -> Minimality {
     }
     let mut random = Random(2021);
     let mut any = || (random.unit() * (1_u64 << 53) as f64) as u64;
-    let joints = program.outputs().len().max(1);
-    // Constants of the robot are the same at all points.
     let mut constants: FxHashMap<Symbol, Residue> = FxHashMap::default();
     for &s in program.parameters() {
         constants.insert(s, Residue::input(any(), any()));
     }
+    let Some(rows) = columns(program, parameters, &constants, &mut any) else { return Minimality::Unknown };
+    match Residue::rank(&rows) {
+        Some(rank) if rank == live => Minimality::Proved,
+        Some(rank) => Minimality::AtLeast(rank),
+        None => Minimality::Unknown,
+    }
+}
+
+/// The torques' columns by the parameters at states at random, more than are needed, with constants of the robot that are the same at
+/// all; nothing where one has no value.
+pub(super) fn columns(
+    program: &Program,
+    parameters: &[BaseParameter],
+    constants: &FxHashMap<Symbol, Residue>,
+    any: &mut impl FnMut() -> u64,
+) -> Option<Vec<Vec<Residue>>> {
+    let joints = program.outputs().len().max(1);
     let is_base: FxHashSet<Symbol> = parameters.iter().map(|p| p.symbol).collect();
     let mut rows: Vec<Vec<Residue>> = vec![];
-    for _ in 0..live.div_ceil(joints) + SPARE {
+    for _ in 0..parameters.len().div_ceil(joints) + SPARE {
         let mut at = constants.clone();
         for &s in program.variables() {
             at.insert(s, Residue::input(any(), any()));
@@ -294,21 +314,16 @@ fn minimality(program: &Program, parameters: &[BaseParameter]) -> Minimality {
             };
             program.eval(input).ok()
         };
-        let Some(drives) = with(None) else { return Minimality::Unknown };
-        let columns: Option<Vec<Vec<Residue>>> = parameters
+        let drives = with(None)?;
+        let columns: Vec<Vec<Residue>> = parameters
             .iter()
             .map(|p| Some(with(Some(p.symbol))?.iter().zip(&drives).map(|(a, b)| a.sub(b)).collect()))
-            .collect();
-        let Some(columns) = columns else { return Minimality::Unknown };
+            .collect::<Option<_>>()?;
         for j in 0..program.outputs().len() {
             rows.push(columns.iter().map(|c| c[j].clone()).collect());
         }
     }
-    match Residue::rank(&rows) {
-        Some(rank) if rank == live => Minimality::Proved,
-        Some(rank) => Minimality::AtLeast(rank),
-        None => Minimality::Unknown,
-    }
+    Some(rows)
 }
 
 #[cfg(test)]

@@ -21,7 +21,9 @@
 
 mod articulated;
 mod base;
+mod closed;
 mod coriolis;
+mod dependent;
 mod derivatives;
 mod direct;
 mod dynamic_model;
@@ -38,12 +40,14 @@ mod programs;
 mod recursion;
 mod regressor;
 mod representatives;
+mod rows;
 mod short;
 mod simulation;
 mod tree;
 
 pub use articulated::articulated_bodies;
 pub use base::{BaseModel, BaseParameter, Fate, Minimality};
+pub use closed::{ClosedDynamics, Held, Meets};
 pub use coriolis::coriolis_matrix;
 pub use derivatives::{Slopes, acceleration_derivatives, torque_derivatives};
 pub use direct::{Factored, Singular, direct_dynamics, factored};
@@ -60,5 +64,5 @@ pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Loads, Mass
 pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;
 pub use representatives::{NoBasis, Representatives};
-pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
+pub use simulation::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate, simulate_closed};
 pub use tree::{OfTree, Unknown};

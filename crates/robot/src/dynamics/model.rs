@@ -1,8 +1,9 @@
 //! An arm with masses: its moving links, its drives, gravity.
 
 use super::tree::OfTree;
-use crate::description::{Description, JointKind, Parameter, Row};
+use crate::description::{Convention, Description, JointKind, Parameter, Row, RowTree};
 use crate::geometry::{Axis, Body, PARAMETERS, Rotation, Transform, Vector};
+use crate::mechanism::robot::link_of;
 use crate::mechanism::{Affine, Lengths, MissingValue, MovingAxes, Robot};
 use crate::scalar::Scalar;
 use denavit_symbolic::{Expr, Rational, Symbol};
@@ -339,13 +340,32 @@ impl Formulas {
         Formulas { parameters: names.parameters, ..self }
     }
 
+    /// The model of a tree of rows, as [`Formulas::named`] has that of a description.
+    pub fn of_rows(tree: &RowTree) -> Self {
+        let q = by_number(&tree.rows);
+        let links: Vec<_> = tree
+            .rows
+            .iter()
+            .map(|r| link_of(Convention::Khalil, r, &q))
+            .zip(tree.after.iter().copied())
+            .collect();
+        let d = tree.all_rows();
+        let (bodies, drives) = weights(&d.rows, &q);
+        let dynamics = Dynamics::of_rows(tree.base, &links, &bodies, drives, d.gravity_or_default());
+        Self::of_links(&d, dynamics, q, true)
+    }
+
     fn with(d: &Description, is_named: bool) -> Self {
         let robot = Robot::symbolic(d);
+        let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
+        let (bodies, drives) = weights(&d.rows, &q);
+        let dynamics = Dynamics::new(&robot, &bodies, drives, d.gravity_or_default());
+        Self::of_links(d, dynamics, q, is_named)
+    }
+
+    /// With names for the numbers of links where they are wanted, or where nothing is said of masses.
+    fn of_links(d: &Description, mut dynamics: Dynamics<Expr>, q: Vec<Symbol>, is_named: bool) -> Self {
         let mut names = Names { parameters: d.parameters.clone() };
-        let bodies: Vec<Body<Expr>> =
-            d.rows.iter().map(|row| row.body().unwrap_or_else(Body::nothing)).collect();
-        let drives = d.rows.iter().filter(|r| r.variable.is_some()).map(Row::drive).collect();
-        let mut dynamics = Dynamics::new(&robot, &bodies, drives, d.gravity_or_default());
         let is_generic = !d.has_masses();
         let lengths = of_table(d);
         for (k, link) in dynamics.links.iter_mut().enumerate() {
@@ -371,7 +391,6 @@ impl Formulas {
             let g = names.symbol("g", Some(Expr::from(value.abs())));
             gravity.0[i] = if value.is_negative() { -g } else { g };
         }
-        let q: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
         let rates = |prefix: &str| -> Vec<Symbol> {
             let behind = |s: &Symbol| s.name().trim_start_matches('q').to_string();
             let free = |mut name: String| {
@@ -405,6 +424,21 @@ impl Formulas {
     pub fn value(&self, symbol: Symbol) -> Option<f64> {
         self.parameters.iter().find(|p| p.symbol == symbol)?.number()
     }
+}
+
+/// The variables of rows, those of one letter by their numbers: q1 first, wherever its row stands.
+pub(super) fn by_number(rows: &[Row]) -> Vec<Symbol> {
+    let mut all: Vec<Symbol> = rows.iter().filter_map(|r| r.variable).map(|v| v.symbol).collect();
+    let number = |s: &Symbol| s.name().trim_start_matches(char::is_alphabetic).parse::<usize>().ok();
+    all.sort_by_key(number);
+    all
+}
+
+/// The bodies of rows in their frames, and the drives of these variables.
+fn weights(rows: &[Row], variables: &[Symbol]) -> (Vec<Body<Expr>>, Vec<Drive<Expr>>) {
+    let bodies = rows.iter().map(|row| row.body().unwrap_or_else(Body::nothing)).collect();
+    let own = |s: &Symbol| rows.iter().find(|r| r.variable.is_some_and(|v| v.symbol == *s));
+    (bodies, variables.iter().map(|s| own(s).map_or_else(Drive::nothing, Row::drive)).collect())
 }
 
 /// The symbols of a table.
@@ -455,35 +489,70 @@ impl Dynamics<f64> {
             return Err(NoNumbers::NoMasses);
         }
         let robot = Robot::numeric(d).map_err(NoNumbers::Missing)?;
-        let mut missing: Vec<String> = vec![];
-        let mut number = |e: Expr| {
-            e.eval(|s| d.value(s)).unwrap_or_else(|s| {
-                let name = s.name().to_string();
-                if !missing.contains(&name) {
-                    missing.push(name);
-                }
-                0.0
-            })
-        };
-        let mut bodies = vec![];
-        let mut drives = vec![];
-        for row in &d.rows {
-            bodies.push(row.body().map_or_else(Body::nothing, |b| b.map(&mut number)));
-            if row.variable.is_some() {
-                let drive = row.drive();
-                drives.push(Drive {
-                    rotor: number(drive.rotor),
-                    viscous: number(drive.viscous),
-                    coulomb: number(drive.coulomb),
-                });
+        let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
+        let (bodies, drives, gravity) = numbers_of(d, &variables)?;
+        Ok(Dynamics::new(&robot, &bodies, drives, gravity))
+    }
+
+    /// The same of a tree of rows, of which one may carry a body that is given in its frame.
+    ///
+    /// # Errors
+    /// As of [`Dynamics::numeric`].
+    pub fn numeric_of_rows(tree: &RowTree, payload: Option<(usize, Body<f64>)>) -> Result<Self, NoNumbers> {
+        let d = tree.all_rows();
+        if !d.has_masses() {
+            return Err(NoNumbers::NoMasses);
+        }
+        // What has no value is said.
+        Robot::numeric(&d).map_err(NoNumbers::Missing)?;
+        let q = by_number(&tree.rows);
+        let (mut bodies, drives, gravity) = numbers_of(&d, &q)?;
+        if let Some((row, payload)) = payload {
+            bodies[row] = bodies[row] + payload;
+        }
+        Ok(Dynamics::of_tree(tree, &q, (&bodies, drives, gravity), |s| d.value(s)))
+    }
+
+    /// The rows of a tree in numbers, moved by these variables, with bodies, drives and gravity.
+    pub(super) fn of_tree(
+        tree: &RowTree,
+        variables: &[Symbol],
+        (bodies, drives, gravity): (&[Body<f64>], Vec<Drive<f64>>, Vector<f64>),
+        value: impl Fn(Symbol) -> Option<f64>,
+    ) -> Self {
+        let number = |e: Expr| e.eval(&value).unwrap_or(f64::NAN);
+        let link = |r| link_of(Convention::Khalil, r, variables).in_numbers(number);
+        let links: Vec<_> = tree.rows.iter().map(link).zip(tree.after.iter().copied()).collect();
+        Dynamics::of_rows(tree.base.map(number), &links, bodies, drives, gravity)
+    }
+}
+
+/// The bodies of rows, the drives of these variables, and gravity, in numbers.
+pub(super) fn numbers_of(
+    d: &Description,
+    variables: &[Symbol],
+) -> Result<(Vec<Body<f64>>, Vec<Drive<f64>>, Vector<f64>), NoNumbers> {
+    let mut missing: Vec<String> = vec![];
+    let mut number = |e: Expr| {
+        e.eval(|s| d.value(s)).unwrap_or_else(|s| {
+            let name = s.name().to_string();
+            if !missing.contains(&name) {
+                missing.push(name);
             }
-        }
-        let gravity = d.gravity_or_default().map(&mut number);
-        d.no_negative_mass()?;
-        if missing.is_empty() {
-            Ok(Dynamics::new(&robot, &bodies, drives, gravity))
-        } else {
-            Err(NoNumbers::Missing(MissingValue { parameters: missing }))
-        }
+            0.0
+        })
+    };
+    let (bodies, drives) = weights(&d.rows, variables);
+    let bodies = bodies.iter().map(|b| b.map(&mut number)).collect();
+    let drives = drives
+        .iter()
+        .map(|of| Drive { rotor: number(of.rotor), viscous: number(of.viscous), coulomb: number(of.coulomb) })
+        .collect();
+    let gravity = d.gravity_or_default().map(&mut number);
+    d.no_negative_mass()?;
+    if missing.is_empty() {
+        Ok((bodies, drives, gravity))
+    } else {
+        Err(NoNumbers::Missing(MissingValue { parameters: missing }))
     }
 }

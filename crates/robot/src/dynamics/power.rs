@@ -34,9 +34,16 @@ pub fn holding_torques(robot: &Robot<f64>, q: &[f64], view: &Viewpoint<f64>, wre
 /// # Panics
 /// If `q` or `qd` does not have one entry per joint.
 pub fn power(arm: &Dynamics<f64>, q: &[f64], qd: &[f64], torques: &[f64], held: Option<&[f64]>) -> Power {
-    let by_rates = |all: &[f64]| all.iter().zip(qd).map(|(t, v)| t * v).sum::<f64>();
-    let (supplied, dissipated) = (by_rates(torques), by_rates(&friction(arm, qd)));
-    let (potential, exerted) = (by_rates(&gravity_torques(arm, q)), held.map_or(0.0, by_rates));
-    let kinetic = supplied - dissipated - exerted - potential;
-    Power { supplied, dissipated, exerted, potential, kinetic }
+    Power::of(qd, torques, &friction(arm, qd), &gravity_torques(arm, q), held)
+}
+
+impl Power {
+    /// Where the power of `torques` goes at these rates, with the torques of friction and of gravity and those that hold a wrench.
+    pub fn of(qd: &[f64], torques: &[f64], friction: &[f64], gravity: &[f64], held: Option<&[f64]>) -> Self {
+        let by_rates = |all: &[f64]| all.iter().zip(qd).map(|(t, v)| t * v).sum::<f64>();
+        let (supplied, dissipated) = (by_rates(torques), by_rates(friction));
+        let (potential, exerted) = (by_rates(gravity), held.map_or(0.0, by_rates));
+        let kinetic = supplied - dissipated - exerted - potential;
+        Power { supplied, dissipated, exerted, potential, kinetic }
+    }
 }

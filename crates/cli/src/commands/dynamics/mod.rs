@@ -1,5 +1,6 @@
 //! `denavit dynamics`: torques, inertia, accelerations in numbers; base parameters and torques as formulas.
 
+mod linkage;
 mod report;
 mod simulation;
 mod stream;
@@ -44,28 +45,42 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if arguments.at.is_some() && arguments.wrench.is_none() && arguments.input.is_none() {
         return Err(Failure::Usage("--at says where a wrench is exerted: give --wrench, too".into()));
     }
-    if arguments.whole {
+    if let Some(closed) = load::without_chain(&arguments.robot)? {
+        return linkage::run(arguments, closed);
+    }
+    if arguments.whole && load::linkage(&arguments.robot)?.is_none() {
         return tree::run(arguments);
     }
-    let (mut description, around) = load::robot_and_around(&arguments.robot)?;
+    let (mut description, around, mut whole) = match load::whole(&arguments.robot)? {
+        Some((description, around, whole)) => (description, around, Some(whole)),
+        None => {
+            let (description, around) = load::robot_and_around(&arguments.robot)?;
+            (description, around, None)
+        }
+    };
     if let Some(text) = &arguments.gravity {
         description.gravity = Some(gravity(text)?);
     }
-    if let Around::Rows(chain) = &around
+    if let Some(whole) = &mut whole {
+        whole.tree.gravity = description.gravity;
+    } else if let Around::Rows(chain) = &around
         && let Some(closed) = chain.closed.as_ref().filter(|c| !c.beside.is_empty())
     {
         let beside = closed.beside.join(", ");
         note(&format!("warning: this is the chain alone: the masses of {beside} have no part in it"));
     }
     let held = around.held_joints();
-    if !held.is_empty() {
+    if !held.is_empty() && whole.is_none() {
         note(&format!(
             "note: what hangs on the chain behind {} counts as fixed where these joints are at 0",
             held.join(", ")
         ));
     }
     if asks_formulas {
-        return symbolic(&description, arguments);
+        return match &whole {
+            Some(whole) => linkage::symbolic(&whole.tree, arguments),
+            None => symbolic(&description, arguments),
+        };
     }
     if arguments.q.is_none() && arguments.input.is_none() {
         return Err(Failure::Usage(format!(
@@ -73,8 +88,11 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
             plural(description.variables().len(), "value"),
         )));
     }
-    let arm = Arm::read(&description, &around, arguments)?;
-    check_bodies(&description, &arm.dynamics, &arguments.robot.robot);
+    let arm = Arm::read(&description, &around, whole.as_ref(), arguments)?;
+    match &whole {
+        Some(whole) => check_bodies(&whole.tree.all_rows(), &arm.dynamics, &arguments.robot.robot),
+        None => check_bodies(&description, &arm.dynamics, &arguments.robot.robot),
+    }
     let given = Given::read(&description, arguments)?;
     let text = match (&arguments.input, &arguments.q) {
         (Some(path), _) => return stream::run(&arm, &given, path),
@@ -106,6 +124,8 @@ struct Arm {
     joints: Vec<String>,
     /// Its chain, and where on it a wrench is exerted; a whole tree exerts none.
     exerts: Option<(Robot<f64>, Viewpoint<f64>)>,
+    /// Whether links have a part in it that are beside that chain.
+    is_whole: bool,
 }
 
 /// An arm with masses in numbers.
@@ -113,7 +133,16 @@ struct Arm {
 /// # Errors
 /// If the description says nothing of masses, a mass is negative, or a parameter has no value.
 pub fn numeric(d: &Description, file: &str) -> Result<Dynamics<f64>, Failure> {
-    Dynamics::numeric(d).map_err(|why| match why {
+    numbers_or(Dynamics::numeric(d), d, file)
+}
+
+/// The numbers, or why there are none.
+fn numbers_or(
+    found: Result<Dynamics<f64>, NoNumbers>,
+    d: &Description,
+    file: &str,
+) -> Result<Dynamics<f64>, Failure> {
+    found.map_err(|why| match why {
         NoNumbers::NoMasses => Failure::Input(format!(
             "error: {file}: it says nothing of masses\n  = hint: a URDF may, for the links of another --tip; or mass, com and inertia in a robot file"
         )),
@@ -123,38 +152,42 @@ pub fn numeric(d: &Description, file: &str) -> Result<Dynamics<f64>, Failure> {
 }
 
 impl Arm {
-    fn read(d: &Description, around: &Around, arguments: &DynamicsArguments) -> Result<Self, Failure> {
+    fn read(
+        d: &Description,
+        around: &Around,
+        whole: Option<&load::WholeLinkage>,
+        arguments: &DynamicsArguments,
+    ) -> Result<Self, Failure> {
         let file = &arguments.robot.robot;
-        let dynamics = numeric(d, file).map_err(|why| match why {
-            Failure::Input(why) if !d.has_masses() => {
-                Failure::Input(format!("{why}; --symbolic gives formulas"))
+        let carried = arguments.payload.as_deref().map(payload).transpose()?;
+        let found = match whole {
+            Some(whole) => {
+                let tool = whole.tool.map(|e| e.eval(|s| d.value(s)).unwrap_or(f64::NAN));
+                let carried = carried.zip(whole.tip).map(|(body, row)| (row, body.seen_from(&tool)));
+                numbers_or(Dynamics::numeric_of_rows(&whole.tree, carried), &whole.tree.all_rows(), file)
             }
+            None => numeric(d, file).map(|arm| carried.iter().fold(arm, Dynamics::carrying)),
+        };
+        let has_masses = d.has_masses() || whole.is_some_and(|w| w.tree.all_rows().has_masses());
+        let dynamics = found.map_err(|why| match why {
+            Failure::Input(why) if !has_masses => Failure::Input(format!("{why}; --symbolic gives formulas")),
             other => other,
         })?;
         let robot = Robot::numeric(d).map_err(|missing| without_values(d, file, &missing))?;
-        let dynamics = match &arguments.payload {
-            Some(text) => dynamics.carrying(&payload(text)?),
-            None => dynamics,
-        };
         let at = match &arguments.at {
             Some(text) => exerted_at(d, around, text)?,
             None => Viewpoint::tool(),
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
-        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some((robot, at)) })
+        let is_whole = whole.is_some();
+        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some((robot, at)), is_whole })
     }
 
     /// Says which joints stand still and have Coulomb's friction, which is then not known.
     fn say_stuck(&self, qd: &[f64]) {
         let all = self.joints.iter().zip(qd).zip(&self.dynamics.drives);
         let stands = all.filter(|((_, rate), drive)| **rate == 0.0 && drive.coulomb != 0.0);
-        let names: Vec<&str> = stands.map(|((name, _), _)| name.as_str()).collect();
-        if !names.is_empty() {
-            note(&format!(
-                "note: Coulomb's friction counts as 0 of joints that stand still ({}); there it is whatever holds them, up to FS",
-                names.join(", ")
-            ));
-        }
+        say_still(stands.map(|((name, _), _)| name.as_str()));
     }
 
     /// Everything about a state.
@@ -190,12 +223,14 @@ impl Arm {
             friction,
             gravity,
             inertia: inertia_matrix(arm, &q),
+            mode: None,
             momentum: Momentum {
                 angular: momentum.angular.0,
                 centre: momentum.centre.0,
                 linear: momentum.linear.0,
                 mass: momentum.mass,
             },
+            passive: None,
             power: power.into(),
             robot: self.name.clone(),
             schema: Schema,
@@ -228,12 +263,27 @@ impl Arm {
 
     /// Why no acceleration follows from torques.
     fn moves_nothing(&self, joint: usize) -> String {
-        format!(
-            "{} moves no mass of its own: no acceleration follows from torques\n  = hint: give its link a mass and an \
-             inertia, or the joint a rotor",
-            self.joints[joint]
-        )
+        without_mass(&self.joints[joint])
     }
+}
+
+/// Says that joints which stand still have Coulomb's friction.
+fn say_still<'n>(names: impl Iterator<Item = &'n str>) {
+    let names: Vec<&str> = names.collect();
+    if !names.is_empty() {
+        note(&format!(
+            "note: Coulomb's friction counts as 0 of joints that stand still ({}); there it is whatever holds them, up to FS",
+            names.join(", ")
+        ));
+    }
+}
+
+/// Why no acceleration follows from torques of this joint.
+fn without_mass(joint: &str) -> String {
+    format!(
+        "{joint} moves no mass of its own: no acceleration follows from torques\n  = hint: give its link a mass and an inertia, or \
+         the joint a rotor"
+    )
 }
 
 /// The frame that a word names, as the body that exerts a wrench at its origin.

@@ -1,6 +1,6 @@
 //! `dynamics --simulate`: the motion under torques, as a table, CSV, JSON and a plot.
 
-use super::{Arm, Given};
+use super::{Arm, Given, without_mass};
 use crate::arguments::DynamicsArguments;
 use crate::commands::fk::plural;
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 
 /// The estimated error of a step where no step is given.
-const TOLERANCE: f64 = 1e-10;
+pub const TOLERANCE: f64 = 1e-10;
 /// Samples where no time between them is given.
 const USUAL: f64 = 200.0;
 /// Rows of the table.
@@ -30,6 +30,18 @@ const ROWS: usize = 11;
 const COLOURS: usize = 8;
 /// The longest file of torques.
 const MAX_BYTES: usize = 1 << 26;
+
+/// What moves: its name, its joints and their limits.
+pub struct Moving<'a> {
+    /// What people call it.
+    pub name: &'a str,
+    /// The joints of a sample.
+    pub joints: Vec<(String, JointKind)>,
+    /// Their limits.
+    pub limits: Vec<Option<[f64; 2]>>,
+    /// Whether closures hold them together.
+    pub is_closed: bool,
+}
 
 /// Follows the motion from a state, and prints it.
 ///
@@ -47,59 +59,104 @@ pub fn run(
         return Err(Failure::Usage("--at: --simulate has wrenches of the tool; leave it away".into()));
     }
     let wrench = given.wrench.map(|[a, b, c, k, m, n]| [Vector([a, b, c]), Vector([k, m, n])]);
-    let n = arm.joints.len();
-    let torques = match (&arguments.tau_file, given.tau) {
-        (Some(file), _) => torques(file, n)?,
-        (None, tau) => Torques::constant(tau.unwrap_or_else(|| vec![0.0; n])),
-    };
+    if wrench.is_some() && arm.is_whole {
+        return Err(Failure::Unsupported("--simulate with --wrench for closed loops".into()));
+    }
+    let torques = acting(arguments, given.tau, arm.joints.len())?;
     let method = match arguments.step {
         Some(step) => Method::Symplectic { step },
-        None => Method::Adaptive { tolerance: TOLERANCE },
+        None => usual(),
     };
-    let dt = arguments.dt.unwrap_or(duration / USUAL);
+    let dt = between(arguments, duration);
     let found = simulate(&arm.dynamics, (q, &given.qd), &Acting { torques, wrench }, (duration, dt), method);
+    let joints = d.variables().into_iter().map(|v| (v.symbol.name().to_string(), v.kind)).collect();
+    let limits = JointSpace::without_lengths(d).limits;
+    let moving = Moving { name: &d.name, joints, limits, is_closed: false };
+    told(&moving, found, arguments, method, duration)
+}
+
+/// How a motion is integrated where no step is given.
+pub fn usual() -> Method {
+    Method::Adaptive { tolerance: TOLERANCE }
+}
+
+/// The torques over time: of a file, the same at all times, or none.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn acting(
+    arguments: &DynamicsArguments,
+    tau: Option<Vec<f64>>,
+    joints: usize,
+) -> Result<Torques, Failure> {
+    match &arguments.tau_file {
+        Some(file) => torques(file, joints),
+        None => Ok(Torques::constant(tau.unwrap_or_else(|| vec![0.0; joints]))),
+    }
+}
+
+/// The time between samples.
+pub fn between(arguments: &DynamicsArguments, duration: f64) -> f64 {
+    arguments.dt.unwrap_or(duration / USUAL)
+}
+
+/// Prints a motion.
+///
+/// # Errors
+/// If it was not followed to its end, or nothing can be written.
+pub fn told(
+    moving: &Moving<'_>,
+    found: Result<Simulation, (NoMotion, Simulation)>,
+    arguments: &DynamicsArguments,
+    method: Method,
+    duration: f64,
+) -> Result<(), Failure> {
     let (found, why, ends) = match found {
         Ok(found) => (found, None, None),
         Err((why, found)) => {
             let ends = why.to_string();
-            (found, Some(failure(arm, why)?), Some(ends))
+            (found, Some(failure(moving, why)?), Some(ends))
         }
     };
     let mut out = anstream::stdout();
     if arguments.json {
-        let names = d.variables();
-        let left = |(j, t): (usize, f64)| Left { joint: names[j].symbol.name().to_string(), t };
-        let leaves = leaves(d, &found).into_iter().map(left).collect();
-        writeln!(out, "{}", denavit_wire::text(&Motion::of(&d.name, &found, ends, leaves)))?;
+        let left = |(j, t): (usize, f64)| Left { joint: moving.joints[j].0.clone(), t };
+        let leaves = found.leaves(&moving.limits).into_iter().map(left).collect();
+        writeln!(out, "{}", denavit_wire::text(&Motion::of(moving.name, &found, ends, leaves)))?;
     } else if arguments.csv {
-        write!(out, "{}", csv(d, &found))?;
-        note(&remarks(d, &found, method, duration));
+        write!(out, "{}", csv(moving, &found))?;
+        note(&remarks(moving, &found, method, duration));
     } else {
-        write!(out, "{}", text(d, &found, method, duration))?;
+        write!(out, "{}", text(moving, &found, method, duration))?;
     }
     if let Some(file) = &arguments.plot {
-        std::fs::write(file, picture(d, &found))
+        std::fs::write(file, picture(moving, &found))
             .map_err(|e| Failure::Input(format!("error: --plot {}: {e}", file.display())))?;
     }
     why.map_or(Ok(()), Err)
 }
 
 /// What is said where there is no motion (the error), or none to the end (the value).
-fn failure(arm: &Arm, why: NoMotion) -> Result<Failure, Failure> {
+fn failure(moving: &Moving<'_>, why: NoMotion) -> Result<Failure, Failure> {
     let usage = |text: &str| Err(Failure::Usage(text.into()));
     match why {
         NoMotion::Singular { joint, .. } => {
-            Err(Failure::Input(format!("error: {}", arm.moves_nothing(joint))))
+            Err(Failure::Input(format!("error: {}", without_mass(&moving.joints[joint].0))))
         }
+        NoMotion::Coulomb if moving.is_closed => Err(Failure::Unsupported(
+            "--simulate of closed loops with Coulomb's friction (coulomb in the file)".into(),
+        )),
         NoMotion::Coulomb => usage(
             "--step: Coulomb's friction has no derivative at rest, and steps of one length do not find where joints stick; leave \
              --step away",
         ),
         NoMotion::Samples => usage("--dt: too many samples"),
         NoMotion::NotPositive => usage("--simulate, --dt and --step are positive"),
-        NoMotion::Steps { .. } | NoMotion::NotFinite { .. } | NoMotion::NotSolved { .. } => {
-            Ok(Failure::GaveUp(why.to_string()))
-        }
+        NoMotion::Steps { .. }
+        | NoMotion::NotFinite { .. }
+        | NoMotion::NotSolved { .. }
+        | NoMotion::Meets { .. }
+        | NoMotion::Massless { .. } => Ok(Failure::GaveUp(why.to_string())),
     }
 }
 
@@ -140,13 +197,8 @@ fn torques(file: &str, joints: usize) -> Result<Torques, Failure> {
     Torques::over(times, rows).ok_or_else(|| wrong("no torques in it".into()))
 }
 
-/// The joints that leave their limits, and when.
-fn leaves(d: &Description, found: &Simulation) -> Vec<(usize, f64)> {
-    found.leaves(&JointSpace::without_lengths(d).limits)
-}
-
 /// How it was followed, and how far the energy is out of balance.
-fn remarks(d: &Description, found: &Simulation, method: Method, duration: f64) -> String {
+fn remarks(moving: &Moving<'_>, found: &Simulation, method: Method, duration: f64) -> String {
     let steps = plural(found.steps, "step");
     let mut text = match method {
         Method::Adaptive { tolerance } => format!(
@@ -170,21 +222,19 @@ fn remarks(d: &Description, found: &Simulation, method: Method, duration: f64) -
     if reached < duration {
         text += &format!("  it ends at {} s of {}\n", decimals(reached, 4), decimals(duration, 4));
     }
-    let variables = d.variables();
-    for (j, t) in leaves(d, found) {
-        let name = variables[j].symbol.name();
+    for (j, t) in found.leaves(&moving.limits) {
+        let name = &moving.joints[j].0;
         text += &format!("  {name} leaves its limits (at {} s): nothing stops it\n", decimals(t, 4));
     }
     text
 }
 
-fn text(d: &Description, found: &Simulation, method: Method, duration: f64) -> String {
-    let variables = d.variables();
-    let mut text = format!("{}: motion over {} s\n", styled(&d.name, HEADING), decimals(duration, 4));
-    text += &remarks(d, found, method, duration);
+fn text(moving: &Moving<'_>, found: &Simulation, method: Method, duration: f64) -> String {
+    let mut text = format!("{}: motion over {} s\n", styled(moving.name, HEADING), decimals(duration, 4));
+    text += &remarks(moving, found, method, duration);
     let start = &found.moments[0];
     let mut header = vec!["t / s".to_string()];
-    header.extend(variables.iter().map(|v| v.symbol.name().to_string()));
+    header.extend(moving.joints.iter().map(|j| j.0.clone()));
     header.extend(["kinetic", "potential", "supplied", "friction"].map(String::from));
     let has_wrench = found.moments.iter().any(|m| m.exerted != 0.0);
     header.extend(has_wrench.then(|| "tool".to_string()));
@@ -195,9 +245,9 @@ fn text(d: &Description, found: &Simulation, method: Method, duration: f64) -> S
     let row = |k: usize| {
         let m = &found.moments[if count > 1 { k * last / (count - 1) } else { 0 }];
         let mut cells = vec![decimals(m.t, 4)];
-        cells.extend(variables.iter().zip(&m.q).map(|(v, &x)| match v.kind {
+        cells.extend(moving.joints.iter().zip(&m.q).map(|((_, kind), &x)| match kind {
             JointKind::Revolute => format!("{}°", decimals(x.to_degrees(), 2)),
-            JointKind::Prismatic => reading(x, v.kind),
+            JointKind::Prismatic => reading(x, *kind),
         }));
         let energies = [m.kinetic, m.potential, m.supplied, m.dissipated];
         cells.extend(energies.map(|x| number(x, 1e-14 * size)));
@@ -217,11 +267,10 @@ fn text(d: &Description, found: &Simulation, method: Method, duration: f64) -> S
 }
 
 /// A header, and a line a sample.
-fn csv(d: &Description, found: &Simulation) -> String {
-    let names: Vec<String> = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+fn csv(moving: &Moving<'_>, found: &Simulation) -> String {
     let mut header = vec!["t".to_string()];
     for suffix in ["", "_velocity", "_torque"] {
-        header.extend(names.iter().map(|n| format!("{n}{suffix}")));
+        header.extend(moving.joints.iter().map(|j| format!("{}{suffix}", j.0)));
     }
     header
         .extend(["kinetic", "potential", "supplied", "dissipated", "exerted", "imbalance"].map(String::from));
@@ -246,21 +295,20 @@ fn csv(d: &Description, found: &Simulation) -> String {
 }
 
 /// Joints, velocities and energies over time, as SVG.
-fn picture(d: &Description, found: &Simulation) -> String {
-    let variables = d.variables();
+fn picture(moving: &Moving<'_>, found: &Simulation) -> String {
     let start = &found.moments[0];
     let of = |value: &dyn Fn(&Moment) -> f64| found.moments.iter().map(|m| [m.t, value(m)]).collect();
-    let slides = variables.iter().any(|v| v.kind == JointKind::Prismatic);
+    let slides = moving.joints.iter().any(|j| j.1 == JointKind::Prismatic);
     let of_joints = |value: fn(&Moment) -> &[f64]| -> Vec<Curve> {
-        let curve = |(j, v): (usize, &denavit::description::Variable)| {
-            let (unit, behind) = match v.kind {
+        let curve = |(j, (name, kind)): (usize, &(String, JointKind))| {
+            let (unit, behind) = match kind {
                 JointKind::Revolute => (180.0 / std::f64::consts::PI, Label::default()),
                 JointKind::Prismatic => (100.0, Label::words(" (cm)")),
             };
-            let name = symbol(&v.symbol.name()).and(behind);
+            let name = symbol(name).and(behind);
             Curve { name, points: of(&|m| value(m)[j] * unit), is_dashed: j >= COLOURS }
         };
-        variables.iter().enumerate().map(curve).collect()
+        moving.joints.iter().enumerate().map(curve).collect()
     };
     let label = |turns: &str, slide: &str| {
         Label::words(if slides { format!("{turns} ({slide})") } else { turns.into() })
@@ -287,5 +335,5 @@ fn picture(d: &Description, found: &Simulation) -> String {
         },
     ];
     let across = Label::symbol("t", "").and(Label::words(" / s"));
-    svg(&curves(&format!("{}: motion", d.name), &across, &panels, &[]), Palette::File, "motion")
+    svg(&curves(&format!("{}: motion", moving.name), &across, &panels, &[]), Palette::File, "motion")
 }

@@ -11,6 +11,7 @@ use denavit::dynamics::{DynamicModel, Formulas, Ground, OfTree, Unknown};
 use denavit_report::explain::{tree_dynamics_document, tree_dynamics_vocabulary};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_wire::dynamics::Model;
 use std::io::Write;
 
@@ -35,14 +36,29 @@ fn symbolic(m: &Mechanism, arguments: &DynamicsArguments) -> Result<(), Failure>
         None => DynamicModel::of_tree(formulas),
     };
     let names = tree_dynamics_vocabulary(m, &model);
+    let joints: Vec<String> = m.joints.iter().map(|j| j.name.clone()).collect();
+    printed(&m.name, &joints, &model, &names, arguments)
+}
+
+/// Prints the model of a tree whose joints have these names.
+///
+/// # Errors
+/// If nothing can be written, or the torques are not Lagrange's.
+pub fn printed(
+    name: &str,
+    joints: &[String],
+    model: &DynamicModel,
+    names: &Vocabulary,
+    arguments: &DynamicsArguments,
+) -> Result<(), Failure> {
     let tongue = arguments.language.tongue();
     let text = if arguments.json || arguments.format == Format::Json {
-        let text = |e: Expr| print(e, &names, Style::Ascii);
-        format!("{}\n", denavit_wire::text(&Model::of(&m.name, &model, text)))
+        let text = |e: Expr| print(e, names, Style::Ascii);
+        format!("{}\n", denavit_wire::text(&Model::of(name, model, text)))
     } else {
-        let title = tongue.words().dynamics_title(&m.name);
-        let blocks = tree_dynamics_document(m, &model, tongue);
-        document::document_in(tongue, &title, &names, &blocks, arguments.format)
+        let title = tongue.words().dynamics_title(name);
+        let blocks = tree_dynamics_document(name, joints, model, tongue);
+        document::document_in(tongue, &title, names, &blocks, arguments.format)
     };
     write!(anstream::stdout(), "{text}")?;
     match model.ground {
@@ -72,7 +88,8 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     let q = configuration(&m, arguments.q.as_deref())?;
     let given = Given::at_rest(&moving, arguments)?;
     let names = moving.iter().map(|j| j.0.clone()).collect();
-    let arm = Arm { dynamics: found.dynamics, name: m.name.clone(), joints: names, exerts: None };
+    let arm =
+        Arm { dynamics: found.dynamics, name: m.name.clone(), joints: names, exerts: None, is_whole: false };
     arm.say_stuck(&given.qd);
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {

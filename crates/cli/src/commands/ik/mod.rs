@@ -1,6 +1,7 @@
 //! `denavit ik`: joint variables for a pose; the derivation of their formulas.
 
 mod answer;
+mod linkage;
 pub mod pose;
 mod stream;
 mod summary;
@@ -32,6 +33,9 @@ use std::io::Write;
 /// # Errors
 /// If something cannot be read, there is no closed form, or the pose is not reachable.
 pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
+    if let Some(closed) = load::without_chain(&arguments.robot)? {
+        return linkage::run(arguments, &closed);
+    }
     let loaded = load::robot(&arguments.robot)?;
     let name = &arguments.robot.robot;
     let ideal = match arguments.idealise {

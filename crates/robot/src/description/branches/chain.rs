@@ -109,7 +109,7 @@ impl RowTree {
 
     /// What the frame is called at which the chain ends that begins at one: its name, or where it is not told the tip of the tree, or else
     /// the frame with the most joints on the way.
-    pub(crate) fn end(&self, from: Option<&str>, to: Option<&str>) -> Result<String, NoChain> {
+    pub fn end(&self, from: Option<&str>, to: Option<&str>) -> Result<String, NoChain> {
         let from = from.map_or_else(|| BASE.into(), |name| self.named(name));
         let to = self.end_from(self.place(&from)?.0, to)?;
         self.place(&to)?;
@@ -124,7 +124,7 @@ impl RowTree {
     }
 
     /// The row that a frame stands on, or is.
-    pub(crate) fn row_of(&self, name: &str) -> Option<usize> {
+    pub fn row_of(&self, name: &str) -> Option<usize> {
         self.place(name).ok()?.0
     }
 

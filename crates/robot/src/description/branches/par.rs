@@ -1,7 +1,7 @@
 //! `.par` files of SYMORO and OpenSYMORO: the geometric parameters of a tree in Khalil's notation, column by column.
 //!
 //! A file holds `key = value` and `key = {value, value, …}`, with comments between `(*` and `*)`. Read are the name, `NL`, `NJ`, `NF`,
-//! `Type`, the columns `ant sigma mu gamma b alpha d theta r`, the gravity `G` and the base `Z` (4×4 by rows). With closed loops there
+//! `Type`, the columns `ant sigma mu gamma b alpha d theta r`, masses (`par_masses`), the gravity `G` and the base `Z` (4×4 by rows). With closed loops there
 //! are B = NJ − NL frames more for the cut joints, and B for the other sides of the cuts; μ says which joints are driven.
 
 use super::RowTree;
@@ -31,7 +31,7 @@ pub(super) struct Entry<'t> {
 /// The columns of the geometry, as OpenSYMORO spells them.
 const COLUMNS: [&str; 9] = ["ant", "sigma", "mu", "gamma", "b", "alpha", "d", "theta", "r"];
 
-/// What is known and has no part in the geometry: masses, forces, speeds.
+/// What is known beside the geometry: masses, forces, speeds.
 const OTHERS: &[&str] = &[
     "XX",
     "XY",
@@ -256,7 +256,7 @@ impl<'t> Reader<'t> {
         self.give_values(&mut parameters, &rows);
         let (base, gravity) = (self.base(entries), self.gravity(entries));
         let title = self.title();
-        self.say_left_out(entries);
+        self.masses(entries, &mut rows, &mut parameters);
         is_whole.then_some(())?;
         let tree = RowTree {
             name: title,
@@ -332,7 +332,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A cell; an angle in decimals is what its digits mean.
-    fn cell(&mut self, item: &Item, quantity: Quantity) -> Cell {
+    pub(super) fn cell(&mut self, item: &Item, quantity: Quantity) -> Cell {
         let none = Cell { span: item.span.clone(), ..Cell::zero() };
         if let (Quantity::Angle, Decimals::Meant, Some(x)) =
             (quantity, self.decimals, Rational::from_decimal(item.text))
@@ -472,22 +472,33 @@ impl<'t> Reader<'t> {
         let g: [Rational; 3] = three.try_into().ok()?;
         g.iter().any(|x| !x.is_zero()).then(|| g.map(Expr::from))
     }
+}
 
-    /// Says that masses and the like are not read, where they are numbers.
-    fn say_left_out(&mut self, entries: &[Entry]) {
-        let is_number = |i: &Item| Rational::from_decimal(i.text).is_some_and(|x| !x.is_zero());
-        let dynamic = &OTHERS[..25];
-        if let Some(entry) =
-            entries.iter().find(|e| dynamic.contains(&e.key) && e.items.iter().any(is_number))
-        {
-            self.out.note(entry.span.clone(), "masses, inertias, friction and forces are not read");
-        }
+impl<'t> Entry<'t> {
+    /// Its key.
+    pub(super) fn key(&self) -> &'t str {
+        self.key
+    }
+
+    /// Its place in the text.
+    pub(super) fn place(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// One of its values.
+    pub(super) fn item(&self, j: usize) -> Option<&Item<'t>> {
+        self.items.get(j)
+    }
+
+    /// The texts of its values.
+    pub(super) fn texts(&self) -> impl Iterator<Item = &'t str> {
+        self.items.iter().map(|i| i.text)
     }
 }
 
 /// A cell as it was read.
 #[derive(Clone, Debug)]
-struct Cell {
+pub(super) struct Cell {
     expr: Expr,
     span: Range<usize>,
     symbols: Vec<(String, Range<usize>)>,
@@ -496,6 +507,16 @@ struct Cell {
 impl Cell {
     fn zero() -> Self {
         Cell { expr: Expr::int(0), span: 0..0, symbols: vec![] }
+    }
+
+    /// What it is.
+    pub(super) fn value(&self) -> Expr {
+        self.expr
+    }
+
+    /// The names in it.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.symbols.iter().map(|s| s.0.as_str())
     }
 }
 

@@ -8,7 +8,7 @@ use super::{NamedFrame, RowTree};
 use crate::description::cell::decimal;
 use crate::description::decimals::{Found, places, recognise};
 use crate::description::lines::{NotNamed, Turns};
-use crate::description::{Convention, Description, JointKind, Row};
+use crate::description::{Convention, Description, JointKind, Parameter, Row};
 use crate::geometry::Transform;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -222,7 +222,7 @@ pub(in crate::description) fn with_frames_as_rows(
     let mut frames = vec![];
     for NamedFrame { name, on, pose } in &tree.frames {
         let before = if on.is_none() { tree.base } else { Transform::identity() };
-        let rows = fixed_rows(tree, &(before * *pose))?;
+        let rows = fixed_rows(&(before * *pose), &tree.parameters)?;
         add(&mut all, rows, on.map(|a| moved[a]));
         if let Some(row) = all.rows.last_mut() {
             row.name = Some(name.clone());
@@ -236,7 +236,7 @@ pub(in crate::description) fn with_frames_as_rows(
 fn on_base(tree: &RowTree, row: &Row) -> Result<Vec<Row>, NotNamed> {
     let before = row.screws(Convention::Khalil).before;
     let before = before.iter().fold(tree.base, |x, s| x * s.transform());
-    let mut rows = fixed_rows(tree, &before)?;
+    let mut rows = fixed_rows(&before, &tree.parameters)?;
     let none = Row { theta: Expr::int(0), d: Expr::int(0), ..Row::still() };
     let end = rows.pop().unwrap_or(none);
     let sum = |a: Expr, b: Expr| Angle::of(a + b).to_expr();
@@ -253,8 +253,11 @@ fn on_base(tree: &RowTree, row: &Row) -> Result<Vec<Row>, NotNamed> {
 }
 
 /// A constant transform as rows: one, or two where the axes are nearly parallel.
-fn fixed_rows(tree: &RowTree, x: &Transform<Expr>) -> Result<Vec<Row>, NotNamed> {
-    let turns = Turns::of(x, &tree.parameters)?;
+pub(in crate::description) fn fixed_rows(
+    x: &Transform<Expr>,
+    parameters: &[Parameter],
+) -> Result<Vec<Row>, NotNamed> {
+    let turns = Turns::of(x, parameters)?;
     Ok(rows_of(&turns))
 }
 

@@ -15,6 +15,7 @@ mod mode;
 mod order;
 mod plane;
 pub mod spherical;
+mod towards;
 mod write_par;
 
 pub use chain::{ClosedChain, NotCoupled};
@@ -23,6 +24,7 @@ pub use mode::{Mode, NoMode, Sign};
 pub use order::{Dyad, Plan, Step, Sum, Unsolved, Vectors};
 pub use plane::{Fault, Planar, Term};
 pub use spherical::{Between, Spherical};
+pub use towards::{NotTowards, Towards, Wanted};
 pub use write_par::write_linkage_par;
 
 use super::branches::{NamedFrame, RowTree};

@@ -1,6 +1,6 @@
 //! Dormand and Prince's pair of orders 5 and 4 (1980), with steps by its error, and contacts of Coulomb's friction.
 
-use super::problem::{Contact, Problem, Slope, Stop};
+use super::problem::{Contact, Equations, Slope, Stop};
 use super::{MAX_STEPS, NoMotion, Simulation};
 
 /// Where the slopes of a step are taken, and of which slopes before; the last row is the result.
@@ -50,7 +50,7 @@ impl Adaptive {
     /// Goes from one time to another, between which nothing has a kink.
     pub fn run(
         &mut self,
-        problem: &Problem,
+        problem: &impl Equations,
         (mut t, end): (f64, f64),
         y: &mut Vec<f64>,
         counts: &mut Simulation,
@@ -122,6 +122,9 @@ impl Adaptive {
                 slope = reached.slope;
             }
             *y = reached.y;
+            if problem.settle(y) {
+                slope = problem.slope(t, y, &contacts).map_err(|why| stop(why, t, y))?;
+            }
             // A step cut short by the end says nothing against longer ones.
             let next = h * (0.9 * error.max(1e-10).powf(-0.2)).clamp(0.2, 5.0);
             self.step = if is_last { next.max(self.step) } else { next };
@@ -132,7 +135,7 @@ impl Adaptive {
 
     fn step(
         &self,
-        problem: &Problem,
+        problem: &impl Equations,
         t: f64,
         h: f64,
         y: &[f64],
@@ -167,7 +170,7 @@ impl Adaptive {
 /// Where within a step, by part of it, a contact seems to be over although it is not at its end: a joint that slides back by the cubic
 /// through its velocities and accelerations at both ends, or one that sticks and is pulled too hard at a stage. The first of them first.
 fn within(
-    problem: &Problem,
+    problem: &impl Equations,
     h: f64,
     y: &[f64],
     (first, last): (&Slope, &End),

@@ -10,10 +10,12 @@
 //! balanced at any time: [`Moment::imbalance`] is the error of the integration.
 
 mod adaptive;
+mod closed;
 mod problem;
 mod symplectic;
 mod torques;
 
+pub use closed::simulate_closed;
 pub use torques::Torques;
 
 use super::energy::{kinetic_energy, potential_energy};
@@ -96,6 +98,18 @@ pub enum NoMotion {
         /// When.
         t: f64,
     },
+    /// Closed loops are where assembly modes meet: which way they go on does not follow.
+    Meets {
+        /// When.
+        t: f64,
+    },
+    /// A free motion of closed loops, from 0, moves no mass.
+    Massless {
+        /// The motion.
+        motion: usize,
+        /// When.
+        t: f64,
+    },
     /// More steps than are taken are needed; it came as far as this.
     Steps {
         /// When.
@@ -124,6 +138,12 @@ impl fmt::Display for NoMotion {
         match self {
             NoMotion::Singular { joint, t } => {
                 write!(f, "at {t} s joint {} moves no mass of its own", joint + 1)
+            }
+            NoMotion::Meets { t } => {
+                write!(f, "at {t} s assembly modes meet: which way the loops go on does not follow")
+            }
+            NoMotion::Massless { motion, t } => {
+                write!(f, "at {t} s free motion {} of the loops moves no mass", motion + 1)
             }
             NoMotion::Steps { t } => write!(f, "{MAX_STEPS} steps came as far as {t} s"),
             NoMotion::NotFinite { t } => write!(f, "after {t} s the numbers become too large"),
@@ -187,22 +207,13 @@ pub fn simulate(
 ) -> Result<Simulation, (NoMotion, Simulation)> {
     let n = arm.joints();
     assert_eq!([q.len(), qd.len(), acting.torques.joints()], [n; 3], "one entry per joint");
-    let mut simulation = Simulation { moments: vec![], steps: 0, refused: 0, switched: 0 };
-    let refuse = |why| Err((why, simulation.clone()));
     let (Method::Adaptive { tolerance: fine } | Method::Symplectic { step: fine }) = method;
-    if ![duration, dt, fine].iter().all(|x| x.is_finite() && *x > 0.0) {
-        return refuse(NoMotion::NotPositive);
-    }
-    if duration / dt > MAX_SAMPLES as f64 {
-        return refuse(NoMotion::Samples);
-    }
+    let simulation = begun(duration, dt, fine)?;
     let is_coulomb = arm.drives.iter().any(|d| d.coulomb != 0.0);
     if is_coulomb && matches!(method, Method::Symplectic { .. }) {
-        return refuse(NoMotion::Coulomb);
+        return Err((NoMotion::Coulomb, simulation));
     }
     let problem = Problem { arm, acting };
-    // Steps end at samples and where the torques have a kink.
-    let samples = (duration / dt - 1e-9).ceil().max(1.0) as usize;
     let moment = |t: f64, y: &[f64]| -> Moment {
         let (q, qd) = (y[..n].to_vec(), y[n..2 * n].to_vec());
         Moment {
@@ -217,22 +228,47 @@ pub fn simulate(
             qd,
         }
     };
-    let mut y: Vec<f64> = q.iter().chain(qd).copied().chain([0.0; 3]).collect();
+    let y: Vec<f64> = q.iter().chain(qd).copied().chain([0.0; 3]).collect();
     let mut stepper = match method {
         Method::Adaptive { tolerance } => Stepper::Adaptive(adaptive::Adaptive::new(tolerance, duration)),
         Method::Symplectic { step } => Stepper::Symplectic(symplectic::Symplectic::new(step)),
     };
+    let step = |from_to: (f64, f64), y: &mut Vec<f64>, counts: &mut Simulation| match &mut stepper {
+        Stepper::Adaptive(s) => s.run(&problem, from_to, y, counts),
+        Stepper::Symplectic(s) => s.run(&problem, from_to, y, counts),
+    };
+    followed(simulation, &acting.torques, y, (duration, dt), moment, step)
+}
+
+/// Nothing yet, if that is what can be simulated.
+fn begun(duration: f64, dt: f64, fine: f64) -> Result<Simulation, (NoMotion, Simulation)> {
+    let nothing = Simulation { moments: vec![], steps: 0, refused: 0, switched: 0 };
+    if ![duration, dt, fine].iter().all(|x| x.is_finite() && *x > 0.0) {
+        return Err((NoMotion::NotPositive, nothing));
+    }
+    if duration / dt > MAX_SAMPLES as f64 {
+        return Err((NoMotion::Samples, nothing));
+    }
+    Ok(nothing)
+}
+
+/// The samples of a motion from the state `y`: steps end at these, and where the torques have a kink.
+fn followed(
+    mut simulation: Simulation,
+    torques: &Torques,
+    mut y: Vec<f64>,
+    (duration, dt): (f64, f64),
+    moment: impl Fn(f64, &[f64]) -> Moment,
+    mut step: impl FnMut((f64, f64), &mut Vec<f64>, &mut Simulation) -> Result<(), Stop>,
+) -> Result<Simulation, (NoMotion, Simulation)> {
+    let samples = (duration / dt - 1e-9).ceil().max(1.0) as usize;
     simulation.moments.push(moment(0.0, &y));
     let mut t = 0.0;
     for k in 1..=samples {
         let until = if k == samples { duration } else { k as f64 * dt };
-        let ends: Vec<f64> = acting.torques.between(t, until).chain([until]).collect();
+        let ends: Vec<f64> = torques.between(t, until).chain([until]).collect();
         for end in ends {
-            let taken = match &mut stepper {
-                Stepper::Adaptive(s) => s.run(&problem, (t, end), &mut y, &mut simulation),
-                Stepper::Symplectic(s) => s.run(&problem, (t, end), &mut y, &mut simulation),
-            };
-            if let Err(Stop { why, t, y }) = taken {
+            if let Err(Stop { why, t, y }) = step((t, end), &mut y, &mut simulation) {
                 if y.iter().all(|x| x.is_finite()) {
                     simulation.moments.push(moment(t, &y));
                 }

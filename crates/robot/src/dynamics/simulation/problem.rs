@@ -6,6 +6,23 @@ use crate::dynamics::inertia::inertia_matrix;
 use crate::dynamics::model::Dynamics;
 use crate::dynamics::newton_euler::{gravity_torques, inverse_dynamics};
 
+/// Equations of motion of a state: joint variables, their rates, and what was supplied, dissipated and exerted.
+pub(super) trait Equations {
+    /// The rate of a state `y` at `t`.
+    fn slope(&self, t: f64, y: &[f64], contacts: &[Contact]) -> Result<Slope, NoMotion>;
+
+    /// How joints move from the state `y` on.
+    fn contacts(&self, t: f64, y: &[f64]) -> Result<Vec<Contact>, NoMotion>;
+
+    /// Whether a contact does not hold any more.
+    fn is_over(&self, j: usize, contact: Contact, y: &[f64], held: &[f64]) -> bool;
+
+    /// Puts a state that an integrator reached to where it must be; whether it was changed.
+    fn settle(&self, _: &mut [f64]) -> bool {
+        false
+    }
+}
+
 /// An arm and what acts on it.
 pub(super) struct Problem<'a> {
     pub arm: &'a Dynamics<f64>,
@@ -37,9 +54,8 @@ pub(super) struct Slope {
     pub held: Vec<f64>,
 }
 
-impl Problem<'_> {
-    /// The rate of the state `y` (q, q̇, and the three energies) at `t`.
-    pub fn slope(&self, t: f64, y: &[f64], contacts: &[Contact]) -> Result<Slope, NoMotion> {
+impl Equations for Problem<'_> {
+    fn slope(&self, t: f64, y: &[f64], contacts: &[Contact]) -> Result<Slope, NoMotion> {
         let n = self.arm.joints();
         let (q, qd) = (&y[..n], &y[n..2 * n]);
         if y.iter().any(|x| !x.is_finite()) {
@@ -95,8 +111,8 @@ impl Problem<'_> {
         }
     }
 
-    /// How joints move from the state `y` on: those at rest with Coulomb's friction stick where it can hold them.
-    pub fn contacts(&self, t: f64, y: &[f64]) -> Result<Vec<Contact>, NoMotion> {
+    /// Joints at rest with Coulomb's friction stick where it can hold them.
+    fn contacts(&self, t: f64, y: &[f64]) -> Result<Vec<Contact>, NoMotion> {
         let n = self.arm.joints();
         let mut contacts: Vec<Contact> = (0..n)
             .map(|j| match (self.arm.drives[j].coulomb != 0.0, y[n + j]) {
@@ -116,9 +132,8 @@ impl Problem<'_> {
         Ok(contacts)
     }
 
-    /// Whether a contact does not hold any more: a joint that slides came to rest and beyond, or one that sticks is pulled harder
-    /// than friction holds it.
-    pub fn is_over(&self, j: usize, contact: Contact, y: &[f64], held: &[f64]) -> bool {
+    /// A joint that slides came to rest and beyond, or one that sticks is pulled harder than friction holds it.
+    fn is_over(&self, j: usize, contact: Contact, y: &[f64], held: &[f64]) -> bool {
         match contact {
             Contact::Slides(direction) => y[self.arm.joints() + j] * direction < 0.0,
             Contact::Sticks => held[j].abs() > self.arm.drives[j].coulomb.abs(),
