@@ -17,7 +17,12 @@ fn every_verb_serves_a_parallelogram_as_a_chain() {
     assert!(shown.contains("assembly modes: = (parallelogram), x"), "{shown}");
     assert!(shown.contains("mobility 6 by rank (9 joints, constraints of rank 3"), "{shown}");
     assert!(said.contains("where sin(q2 − q3) = 0: a parallel singularity"), "{said}");
-    let (code, _, said) = run(&["dynamics", "sr400", "--symbolic"]);
+    let (code, torques, said) = run(&["dynamics", "sr400", "--symbolic"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("the whole linkage, the links beside the chain with it: lever, rod"), "{said}");
+    assert!(torques.contains("Of 80 parameters of the links, grouped, 39 have an effect"), "{torques}");
+    assert!(torques.contains("proved to be independent"), "{torques}");
+    let (code, _, said) = run(&["dynamics", "sr400", "--tip", "forearm", "--symbolic"]);
     assert_eq!(
         (code, said.contains("warning: this is the chain alone: the masses of lever, rod")),
         (0, true),
@@ -46,7 +51,7 @@ fn every_verb_serves_a_parallelogram_as_a_chain() {
 
 #[test]
 fn what_is_no_chain_says_so_and_is_served_as_it_is() {
-    let (code, _, said) = run(&["ik", "akr3000", "-q", "home"]);
+    let (code, _, said) = run(&["derive", "akr3000"]);
     assert_eq!(code, 4);
     assert!(
         said.contains("the passive joints p1, p4 are not affine in the driven joints in the mode ++"),
@@ -82,6 +87,44 @@ fn what_is_no_chain_says_so_and_is_served_as_it_is() {
     assert_eq!((code, said.contains("there are open, crossed, +, -")), (2, true), "{said}");
     let (code, _, said) = run(&["fk", "ur5", "-q", "0,0,0,0,0,0", "--mode", "+"]);
     assert_eq!((code, said.contains("--mode is for closed loops")), (2, true), "{said}");
+}
+
+#[test]
+fn linkages_have_inverse_kinematics_and_dynamics() {
+    let (code, solved, said) = run(&["ik", "five-bar", "--position", "-q", "home", "--json"]);
+    assert_eq!(code, 0, "{said}");
+    let answer: Value = serde_json::from_str(&solved).expect("JSON");
+    assert_eq!((&answer["complete"], &answer["closed_form"]), (&true.into(), &true.into()));
+    assert_eq!(answer["solutions"].as_array().map(Vec::len), Some(4), "{solved}");
+    let (code, _, said) = run(&["ik", "five-bar", "--position", "--pose", "100, 0, 0"]);
+    assert_eq!((code, said.contains("not reachable")), (1, true), "{said}");
+    let (code, _, said) = run(&["ik", "five-bar", "--position", "--pose", "0, 0, 1"]);
+    assert_eq!((code, said.contains("moves in a plane")), (1, true), "{said}");
+    let (code, _, said) = run(&["ik", "five-bar", "--explain"]);
+    assert_eq!(code, 4, "{said}");
+    let (code, solved, said) = run(&["ik", "akr3000", "-q", "home"]);
+    assert_eq!((code, solved.contains("there may be more")), (0, true), "{said}");
+
+    let state = ["four-bar", "-q", "50deg", "--qd", "1", "--qdd", "2", "--json"];
+    let (code, found, said) = run(&[&["dynamics"], &state[..]].concat());
+    assert_eq!(code, 0, "{said}");
+    let answer: Value = serde_json::from_str(&found).expect("JSON");
+    assert_eq!((&answer["mode"], answer["passive"].as_array().map(Vec::len)), (&"+".into(), Some(3)));
+    let torque = answer["torques"][0].as_f64().expect("a number");
+    let (code, found, said) =
+        run(&["dynamics", "four-bar", "-q", "50deg", "--qd", "1", "--tau", &torque.to_string(), "--json"]);
+    assert_eq!(code, 0, "{said}");
+    let answer: Value = serde_json::from_str(&found).expect("JSON");
+    assert!((answer["accelerations"][0].as_f64().expect("a number") - 2.0).abs() < 1e-9, "{found}");
+    let (code, fallen, said) = run(&["dynamics", "four-bar", "-q", "50deg", "--simulate", "2", "--json"]);
+    assert_eq!(code, 0, "{said}");
+    let motion: Value = serde_json::from_str(&fallen).expect("JSON");
+    assert!(motion["drift"].as_f64().expect("a number") < 1e-6, "{}", motion["drift"]);
+    assert_eq!(motion["samples"][0]["q"].as_array().map(Vec::len), Some(4));
+    let (code, _, said) = run(&["dynamics", "four-bar", "--symbolic"]);
+    assert_eq!((code, said.contains("are not couplings of the driven ones")), (4, true), "{said}");
+    let (code, _, said) = run(&["dynamics", "five-bar", "-q", "home"]);
+    assert_eq!((code, said.contains("says nothing of masses")), (2, true), "{said}");
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub(crate) struct Allowed {
     pub drift: Vec<f64>,
 }
 
+/// Pivots below this, by the largest, leave so little of accelerations that no motion is followed by them.
+const NEARLY: f64 = 1e-5;
 /// Pivots below this, by the largest, count as 0.
 pub(super) const RANK: f64 = 1e-9;
 
@@ -132,7 +134,7 @@ impl Loops {
     /// are driven joints.
     pub(crate) fn allowed(&self, all: &[f64], rates: &[f64]) -> Option<Allowed> {
         let w = self.constraint(all);
-        let factors = Factors::of(&w, RANK);
+        let factors = Factors::of(&w, NEARLY);
         let dependent = factors.dependent();
         if dependent.len() > self.driven.len() {
             return None;

@@ -2,14 +2,13 @@
 
 use super::{Answer, Energy, Given, Momentum, Schema, gravity, report, simulation};
 use crate::arguments::DynamicsArguments;
-use crate::commands::fk::linkage::{assemblies, configuration};
+use crate::commands::fk::linkage::{assemblies, configuration, limited, warn};
 use crate::failure::Failure;
 use crate::terminal::note;
 use denavit::closure::Assembly;
 use denavit::description::{JointKind, Linkage, RowTree};
 use denavit::dynamics::{ClosedDynamics, DynamicModel, Formulas, Held, NoNumbers, Power, simulate_closed};
 use denavit::quantity::reading;
-use denavit::space::JointSpace;
 use denavit_report::explain::rows_dynamics_vocabulary;
 use std::io::Write;
 
@@ -59,6 +58,7 @@ pub fn run(arguments: &DynamicsArguments, mut linkage: Linkage) -> Result<(), Fa
     let meant = of.loops().mode(None).ok();
     // The mode that is meant, of those that close there.
     let assembly = found.all.iter().find(|a| Some(&a.mode) == meant.as_ref()).unwrap_or(&found.all[0]);
+    warn(&linkage, &q, std::slice::from_ref(assembly));
     let others = found.all.len() - 1;
     if others > 0 {
         let modes: Vec<String> =
@@ -203,12 +203,7 @@ fn simulated(
     let dt = simulation::between(arguments, duration);
     let start = (q, shown.assembly.passive.as_slice(), given.qd.as_slice());
     let found = simulate_closed(of, start, &torques, (duration, dt), simulation::TOLERANCE);
-    let joints: Joints = shown.driven.iter().chain(&shown.passive).cloned().collect();
-    let rows = shown.linkage.all_rows();
-    let known = rows.variables().into_iter().zip(JointSpace::without_lengths(&rows).limits);
-    let known: Vec<(String, _)> = known.map(|(v, limits)| (v.symbol.name().to_string(), limits)).collect();
-    let own = |(name, _): &(String, JointKind)| known.iter().find(|k| k.0 == *name).and_then(|k| k.1);
-    let limits = joints.iter().map(own).collect();
+    let (joints, limits) = limited(shown.linkage).into_iter().map(|(n, k, ends)| ((n, k), ends)).unzip();
     let moving = simulation::Moving { name: &shown.linkage.tree.name, joints, limits, is_closed: true };
     simulation::told(&moving, found, arguments, simulation::usual(), duration)
 }

@@ -1,6 +1,6 @@
 //! `fk` of closed loops that are no serial chain: the passive joints and the pose, in every assembly mode.
 
-use super::{plural, value};
+use super::{plural, value, warn_of_limits};
 use crate::arguments::FkArguments;
 use crate::failure::Failure;
 use crate::load;
@@ -11,6 +11,7 @@ use denavit::description::linkage::{Dyad, Linkage, Mode, Plan, Step, Unsolved, V
 use denavit::description::{Convention, JointKind};
 use denavit::geometry::Transform;
 use denavit::quantity::reading;
+use denavit::space::JointSpace;
 use denavit_report::document::plain;
 use denavit_report::words::Tongue;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -48,6 +49,7 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
         loops.place(arguments.robot.tip.as_deref()).map_err(|why| Failure::Usage(why.to_string()))?;
     let found = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?;
     let all = &found.all;
+    warn(linkage, &q, all);
     let poses: Vec<Transform<f64>> = all.iter().map(|a| loops.pose(&place, &q, &a.passive)).collect();
     if arguments.json {
         let answer = Assemblies {
@@ -88,6 +90,33 @@ pub fn run(arguments: &FkArguments, linkage: &Linkage) -> Result<(), Failure> {
 
 fn mode_of(a: &Assembly) -> String {
     styled(&a.mode.to_string(), NAME)
+}
+
+/// The joints with their limits, the driven ones first.
+pub fn limited(linkage: &Linkage) -> Vec<(String, JointKind, Option<[f64; 2]>)> {
+    let rows = linkage.all_rows();
+    let known: Vec<_> = rows.variables().into_iter().zip(JointSpace::without_lengths(&rows).limits).collect();
+    let limits = |s: Symbol| known.iter().find(|k| k.0.symbol == s).and_then(|k| k.1);
+    let all = linkage.driven().into_iter().chain(linkage.passive());
+    all.map(|v| (v.symbol.name().to_string(), v.kind, limits(v.symbol))).collect()
+}
+
+/// Says which joints are beyond their limits: driven ones, and of each assembly passive ones.
+pub fn warn(linkage: &Linkage, q: &[f64], all: &[Assembly]) {
+    let limited = limited(linkage);
+    let (driven, passive) = limited.split_at(q.len());
+    for ((name, kind, limits), &x) in driven.iter().zip(q) {
+        warn_of_limits(name, *kind, *limits, x);
+    }
+    for a in all {
+        for ((name, kind, limits), &x) in passive.iter().zip(&a.passive) {
+            let name = match a.mode.to_string().as_str() {
+                "" => name.clone(),
+                mode => format!("mode {mode}: {name}"),
+            };
+            warn_of_limits(&name, *kind, *limits, x);
+        }
+    }
 }
 
 /// Where the driven joints are.

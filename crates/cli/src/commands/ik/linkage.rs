@@ -2,16 +2,17 @@
 
 use super::pose;
 use crate::arguments::IkArguments;
-use crate::commands::fk::linkage::{assemblies, at, configuration};
+use crate::commands::fk::linkage::{assemblies, at, configuration, limited};
 use crate::commands::fk::plural;
 use crate::failure::{Failure, without_values};
 use crate::terminal::{Align, HEADING, note, styled, table};
 use denavit::closure::{ClosedAnswer, ClosedInverse, ClosedSolution, NoInverse};
-use denavit::description::Linkage;
 use denavit::description::linkage::Wanted;
+use denavit::description::{JointKind, Linkage};
 use denavit::inverse::Goal;
 use denavit::quantity::reading;
 use denavit_wire::linkage::Reached;
+use std::f64::consts::TAU;
 use std::io::Write;
 
 /// Solves a pose.
@@ -70,6 +71,20 @@ pub fn run(arguments: &IkArguments, linkage: &Linkage) -> Result<(), Failure> {
         }
     };
     let answer = inverse.solve(&pose);
+    for (k, s) in answer.solutions.iter().enumerate() {
+        let all = s.q.iter().chain(&s.passive).zip(limited(linkage));
+        // Whole turns away counts, too.
+        let is_within = |x: f64, kind: JointKind, [a, b]: [f64; 2]| match kind {
+            JointKind::Revolute => [-1.0, 0.0, 1.0].iter().any(|k| (a..=b).contains(&(x + k * TAU))),
+            JointKind::Prismatic => (a..=b).contains(&x),
+        };
+        let beyond =
+            all.filter(|(x, (_, kind, limits))| limits.is_some_and(|ends| !is_within(**x, *kind, ends)));
+        let names: Vec<String> = beyond.map(|(_, (name, ..))| name).collect();
+        if !names.is_empty() {
+            note(&format!("warning: configuration {}: {} outside the limits", k + 1, names.join(", ")));
+        }
+    }
     let word = if wanted == Wanted::Pose { "pose" } else { "position" };
     let name = &linkage.tree.name;
     let mut out = anstream::stdout();

@@ -1,7 +1,7 @@
 //! `jacobian` of closed loops that are no serial chain: how passive joints and the tip move with the driven ones.
 
 use crate::arguments::JacobianArguments;
-use crate::commands::fk::linkage::{assemblies, at, configuration, passives};
+use crate::commands::fk::linkage::{assemblies, at, configuration, passives, warn};
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, HEADING, matrix, number, styled};
@@ -42,6 +42,7 @@ pub fn run(arguments: &JacobianArguments, linkage: &Linkage) -> Result<(), Failu
     let (name, place) =
         loops.place(arguments.robot.tip.as_deref()).map_err(|why| Failure::Usage(why.to_string()))?;
     let all = assemblies(&loops, arguments.robot.mode.as_deref(), &q)?.all;
+    warn(linkage, &q, &all);
     let mut out = anstream::stdout();
     if arguments.json {
         for a in &all {
