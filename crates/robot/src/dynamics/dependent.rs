@@ -3,7 +3,7 @@
 //!
 //! Coefficients are had modulo a prime, for several values of the lengths. One is a number if it is the same for all and lifts to a
 //! small fraction; otherwise it is sought as one or two products of powers of lengths, of the dimension that it must have. What is found
-//! holds for further values that had no part in it, or it is left alone.
+//! holds for further values that had no part in it, and in floating point, or it is left alone.
 
 use super::base::{BaseModel, BaseParameter, columns, named_apart};
 use super::grouping::Grouped;
@@ -111,11 +111,58 @@ fn dependent(formulas: &Formulas, model: &BaseModel) -> Vec<(usize, Vec<(usize, 
                 points.iter().map(|p| &p.0).zip(at(k)?).collect();
             Some((k, coefficient(&lengths, degree, &values)?))
         };
-        if let Some(terms) = all.into_iter().map(term).collect::<Option<Vec<(usize, Expr)>>>() {
+        if let Some(terms) = all.into_iter().map(term).collect::<Option<Vec<(usize, Expr)>>>()
+            && holds(model, first.column, &terms)
+        {
             found.push((first.column, terms));
         }
     }
     found
+}
+
+/// States in which a dependency is tried in numbers, and what is rounding there.
+const STATES: usize = 4;
+const ROUNDING: f64 = 1e-8;
+
+/// Whether a column of the torques is this sum of others in floating point, for lengths and states at random: what a number looks like
+/// modulo the prime may be chance.
+fn holds(model: &BaseModel, column: usize, terms: &[(usize, Expr)]) -> bool {
+    let mut random = Random(1991);
+    let program = &model.inverse;
+    let places: FxHashMap<Symbol, usize> =
+        model.parameters.iter().enumerate().map(|(k, p)| (p.symbol, k)).collect();
+    (0..STATES).all(|_| {
+        let at: FxHashMap<Symbol, f64> = program
+            .variables()
+            .iter()
+            .chain(program.parameters())
+            .map(|&s| (s, 0.3 + random.unit()))
+            .collect();
+        let with = |one: Option<usize>| {
+            let value = |s: Symbol| match places.get(&s) {
+                Some(k) => Some(f64::from(u8::from(Some(*k) == one))),
+                None => at.get(&s).copied(),
+            };
+            program.eval(value).ok()
+        };
+        let column_of = |k: usize, drives: &[f64]| -> Option<Vec<f64>> {
+            Some(with(Some(k))?.iter().zip(drives).map(|(a, b)| a - b).collect())
+        };
+        let check = || -> Option<bool> {
+            let drives = with(None)?;
+            let mut left = column_of(column, &drives)?;
+            let mut size = left.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+            for (k, factor) in terms {
+                let factor = factor.eval(|s| at.get(&s).copied()).ok()?;
+                for (l, x) in left.iter_mut().zip(column_of(*k, &drives)?) {
+                    size = size.max((factor * x).abs());
+                    *l -= factor * x;
+                }
+            }
+            Some(left.iter().all(|x| x.abs() <= ROUNDING * size))
+        };
+        check() == Some(true)
+    })
 }
 
 /// The power of lengths in the unit of a base parameter: 2 for inertia, 1 for a first moment, 0 for a mass.
@@ -129,7 +176,10 @@ fn dimension(p: &BaseParameter, links: &[Grouped]) -> Option<i32> {
     })
 }
 
-/// A coefficient as a formula of lengths: a number, or a sum of at most two products of their powers.
+/// Roots that sines and cosines of usual angles have.
+const ROOTS: [i64; 4] = [1, 2, 3, 6];
+
+/// A coefficient as a formula of lengths: a number, or a sum of at most two products of their powers and of roots of small numbers.
 fn coefficient(
     lengths: &[Symbol],
     degree: i32,
@@ -144,23 +194,31 @@ fn coefficient(
     {
         return Some(number.into());
     }
-    let products = products(lengths.len(), degree);
-    let value = |product: &[i32], at: &FxHashMap<Symbol, Residue>| {
-        lengths.iter().zip(product).fold(Residue::new(1), |all, (s, &power)| {
+    // Numbers have no dimension that could be told.
+    let powers = if lengths.is_empty() { vec![vec![]] } else { products(lengths.len(), degree) };
+    let products: Vec<(i64, &Vec<i32>)> =
+        ROOTS.iter().flat_map(|&root| powers.iter().map(move |p| (root, p))).take(MAX_PRODUCTS).collect();
+    let value = |(root, product): &(i64, &Vec<i32>), at: &FxHashMap<Symbol, Residue>| {
+        let root = Residue::rational(&Rational::from(*root)).sqrt();
+        lengths.iter().zip(*product).fold(root, |all, (s, &power)| {
             let one = |all: Residue, _| if power < 0 { all.div(&at[s]) } else { all.mul(&at[s]) };
             (0..power.abs()).fold(all, one)
         })
     };
     let table: Vec<Vec<Residue>> =
         products.iter().map(|p| values.iter().map(|v| value(p, v.0)).collect()).collect();
-    let formula = |product: &[i32], number: Rational| {
+    let formula = |(root, product): &(i64, &Vec<i32>), number: Rational| {
+        let root = Expr::int(*root).sqrt();
         let power = |all: Expr, (s, &power): (&Symbol, &i32)| all * Expr::from(*s).powi(power);
-        lengths.iter().zip(product).fold(Expr::from(number), power)
+        lengths.iter().zip(*product).fold(Expr::from(number) * root, power)
     };
     for (product, of) in products.iter().zip(&table) {
         if let Some(number) = same(&|k| values[k].1.div(&of[k])) {
             return Some(formula(product, number));
         }
+    }
+    if lengths.is_empty() {
+        return None; // nothing changes from value to value: two numbers would fit anything
     }
     for (i, one) in table.iter().enumerate() {
         for (j, two) in table.iter().enumerate().skip(i + 1) {
