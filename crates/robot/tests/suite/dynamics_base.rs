@@ -169,7 +169,10 @@ fn what_depends_on_others_is_left_out() {
                 }
             })
             .collect();
-        let text = format!("name = \"r{k}\"\nconvention = \"standard\"\n{}", rows.concat());
+        let text = format!(
+            "name = \"r{k}\"\nconvention = \"standard\"\n[parameters]\na = \"\"\nb = \"\"\n{}",
+            rows.concat()
+        );
         let d = read_toml(&text).unwrap_or_else(|f| panic!("{f:?}\n{text}")).0;
         let (formulas, model) = base(&under(d, [0, 0, -1]));
         assert!(!differs(&formulas, &model, k as u64), "{text}");

@@ -323,7 +323,7 @@ fn velocities_are_those_of_differences() {
                     };
                     let (Some(coarse), Some(slope)) = (slope_by(4e-3), slope_by(2e-3)) else { continue };
                     let apart = coarse.iter().zip(&slope).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                    let tolerance = 2e-12 * size + apart;
+                    let tolerance = 1e-10 + apart;
                     fine += usize::from(apart < 1e-11);
                     for (i, row) in g.iter().enumerate() {
                         let off = (slope[16 + i] - row[k]).abs();
