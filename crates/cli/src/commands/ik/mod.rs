@@ -7,7 +7,7 @@ mod summary;
 
 use crate::arguments::{Format, IkArguments};
 use crate::commands::fk::configuration;
-use crate::commands::{certificate, document};
+use crate::commands::{certificate, document, parallel};
 use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::{note, words};
@@ -32,6 +32,9 @@ use std::io::Write;
 /// # Errors
 /// If something cannot be read, there is no closed form, or the pose is not reachable.
 pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
+    if let Some((parallel, _)) = load::parallel(&arguments.robot)? {
+        return parallel::ik(arguments, &parallel);
+    }
     let loaded = load::robot(&arguments.robot)?;
     let name = &arguments.robot.robot;
     let ideal = match arguments.idealise {
