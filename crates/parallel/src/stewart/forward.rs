@@ -121,12 +121,13 @@ impl Scaled {
 }
 
 impl Stewart {
-    /// All poses with these lengths of the legs, metres.
+    /// All poses with these lengths of the legs, metres; none is found for negative ones.
     pub fn forward(&self, lengths: &[f64; 6]) -> Forward {
         let bound = self.bound();
         let numbers = self.base.iter().chain(&self.platform).flat_map(|p| p.0).chain(*lengths);
-        // Squares of what is larger are no numbers.
-        if numbers.into_iter().any(|x| x.is_nan() || x.abs() > 1e100) {
+        // Squares of what is larger are no numbers, and hide a sign.
+        let is_none = numbers.into_iter().any(|x| x.is_nan() || x.abs() > 1e100);
+        if is_none || lengths.iter().any(|l| *l < 0.0) {
             return Forward { assemblies: vec![], proved: 0, bound, lost: MOST };
         }
         let scaled = Scaled::new(self, lengths);

@@ -151,9 +151,12 @@ fn what_is_not_proved_is_not_complete() {
 #[test]
 fn legs_that_are_too_short_have_no_pose() {
     let (platform, mut lengths) = dietmaier();
+    let own = lengths;
     lengths[0] = 100.0;
     let found = platform.forward(&lengths);
     assert!(found.assemblies.is_empty() && found.is_complete(), "{found:?}");
+    let found = platform.forward(&own.map(|l| -l));
+    assert!(found.assemblies.is_empty() && !found.is_complete(), "{found:?}");
 }
 
 #[test]

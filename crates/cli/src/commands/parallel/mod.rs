@@ -90,6 +90,17 @@ impl<'a> Numbers<'a> {
 
     /// The drives: a pose of the file, values of all, or each by its name.
     fn configuration(&self, text: Option<&str>) -> Result<At, Failure> {
+        let at = self.given(text)?;
+        let negative = at.q.iter().position(|&l| l < 0.0);
+        match (negative, &self.of.family) {
+            (Some(k), Family::Stewart { .. }) => {
+                Err(Failure::Usage(format!("-q: {}: the length of a leg is not negative", self.names()[k])))
+            }
+            _ => Ok(at),
+        }
+    }
+
+    fn given(&self, text: Option<&str>) -> Result<At, Failure> {
         let bad = |why: String| Failure::Usage(format!("-q: {why}"));
         let (names, count) = (self.names(), self.of.family.drives());
         let Some(text) = text else {

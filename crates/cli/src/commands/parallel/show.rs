@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::terminal::{Align, FAINT, HEADING, NAME, number, styled, table};
 use denavit::description::JointKind;
 use denavit::description::parallel::{DeltaDrive, Family, Parallel, Place};
+use denavit::geometry::orientation::{OrientationSet, extract};
 use denavit::quantity::reading;
 use denavit_wire::Schema;
 use denavit_wire::parallel::{Geometry, Shown};
@@ -65,16 +66,18 @@ pub fn run(arguments: &ShowArguments, parallel: &Parallel, text: &str) -> Result
     if !values.is_empty() {
         writeln!(out, "\n  {}", values.join(",  "))?;
     }
-    let ranges: Vec<String> = numbers
-        .names()
-        .iter()
-        .zip(&numbers.limits)
-        .map(|(name, l)| {
-            format!("{name} {} … {}", reading(l[0], numbers.kind()), reading(l[1], numbers.kind()))
-        })
-        .collect();
-    if !ranges.is_empty() {
-        writeln!(out, "\n  limits: {}", ranges.join(", "))?;
+    let range =
+        |l: &[f64; 2]| format!("{} … {}", reading(l[0], numbers.kind()), reading(l[1], numbers.kind()));
+    match &numbers.limits[..] {
+        [] => {}
+        [first, rest @ ..] if rest.iter().all(|l| l == first) => {
+            writeln!(out, "\n  limits of each drive: {}", range(first))?;
+        }
+        all => {
+            let ranges: Vec<String> =
+                numbers.names().iter().zip(all).map(|(name, l)| format!("{name} {}", range(l))).collect();
+            writeln!(out, "\n  limits: {}", ranges.join(", "))?;
+        }
     }
     writeln!(out, "\n{}\n{}", styled("How it is solved", HEADING), formulas(&family).trim_end())?;
     for (name, place) in &parallel.poses {
@@ -84,8 +87,18 @@ pub fn run(arguments: &ShowArguments, parallel: &Parallel, text: &str) -> Result
                 numbers.at(&q)
             }
             Place::Platform(x) => {
-                let p = x.translation.0.map(|e| number(parallel.number(e).unwrap_or(f64::NAN), 1e-15));
-                format!("the platform at ({}) m", p.join(", "))
+                let x = x.map(|e| parallel.number(e).unwrap_or(f64::NAN));
+                let p = x.translation.0.map(|x| number(x, 1e-15));
+                let turned = extract(&x.rotation, OrientationSet::Rpy).values;
+                let turned = match turned.iter().all(|a| *a == 0.0) {
+                    true => String::new(),
+                    false => {
+                        let angles =
+                            turned.iter().map(|a| reading(*a, JointKind::Revolute)).collect::<Vec<_>>();
+                        format!(", roll, pitch, yaw {}", angles.join(", "))
+                    }
+                };
+                format!("the platform at ({}) m{turned}", p.join(", "))
             }
         };
         writeln!(out, "  pose {}: {at}", styled(name, NAME))?;
