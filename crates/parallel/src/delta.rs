@@ -218,7 +218,7 @@ impl Delta {
         let w = (u.cross(n).scale(-v.dot(v)) + v.cross(n).scale(u.dot(u))).scale(1.0 / (2.0 * area));
         let height = self.rod * self.rod - w.dot(w);
         // Not a number where numbers are too large: nothing meets there.
-        if !(height >= -1e-12 * self.rod * self.rod) {
+        if height.is_nan() || height < -1e-12 * self.rod * self.rod {
             return Err(NoPosition::Apart);
         }
         if height <= 1e-12 * self.rod * self.rod {
@@ -231,11 +231,11 @@ impl Delta {
     /// J_x v = J_q q̇: a row of J_x is the direction r of a rod, and the entry of J_q is r·∂c/∂q.
     pub fn rates(&self, p: Vector<f64>, q: &[f64; 3]) -> Rates {
         let (mut rows, mut drives, mut most) = (vec![], vec![], vec![]);
-        for leg in 0..3 {
-            let r = self.rod_at(leg, p, q[leg]).scale(1.0 / self.rod);
+        for (leg, &q) in q.iter().enumerate() {
+            let r = self.rod_at(leg, p, q).scale(1.0 / self.rod);
             let (by_q, size) = match self.drive {
                 // The derivative of an arm at α is the arm at α + 90°.
-                Drive::Turns(arm) => (self.along(leg, q[leg] + std::f64::consts::FRAC_PI_2).scale(arm), arm),
+                Drive::Turns(arm) => (self.along(leg, q + std::f64::consts::FRAC_PI_2).scale(arm), arm),
                 Drive::Slides(slope) => (self.along(leg, slope), 1.0),
             };
             rows.push(r.0);

@@ -47,12 +47,14 @@ impl<const N: usize> Lu<N> {
         let mut x = self.order.map(|i| b[i]);
         for i in 0..N {
             for j in 0..i {
-                x[i] = x[i] - self.rows[i][j] * x[j];
+                let known = x[j];
+                x[i] -= self.rows[i][j] * known;
             }
         }
         for i in (0..N).rev() {
             for j in i + 1..N {
-                x[i] = x[i] - self.rows[i][j] * x[j];
+                let known = x[j];
+                x[i] -= self.rows[i][j] * known;
             }
             x[i] = x[i] * self.reciprocals[i];
         }

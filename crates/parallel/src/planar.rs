@@ -279,12 +279,12 @@ impl Planar {
     /// J_q is r·∂C/∂q.
     pub fn rates(&self, pose: &PlanarPose, q: &[f64; 3]) -> Rates {
         let (mut rows, mut drives, mut most) = (vec![], vec![], vec![]);
-        for leg in 0..3 {
+        for (leg, &q) in q.iter().enumerate() {
             let at = self.held(leg, pose);
-            let r = self.link_at(leg, pose, q[leg]).map(|x| x / self.second[leg]);
+            let r = self.link_at(leg, pose, q).map(|x| x / self.second[leg]);
             let (x, y) = (at[0] - pose.position[0], at[1] - pose.position[1]);
             rows.push([r[0], r[1], x * r[1] - y * r[0]]);
-            let (sin, cos) = q[leg].sin_cos();
+            let (sin, cos) = q.sin_cos();
             drives.push(self.first[leg] * (r[1] * cos - r[0] * sin));
             most.push(self.first[leg]);
         }

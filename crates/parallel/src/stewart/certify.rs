@@ -116,17 +116,14 @@ impl Legs {
             region[unit] = Rectangle::point(Complex::ONE);
             let d = self.gradients(&region).map(|gradient| columns.map(|c| gradient[c]));
             let around = Rectangle::around(Complex::ZERO, radius);
-            let mut image = [Rectangle::ZERO; 7];
-            for i in 0..7 {
-                let mut sum = Rectangle::ZERO - off[i];
-                for j in 0..7 {
+            let image: [Rectangle; 7] = std::array::from_fn(|i| {
+                (0..7).fold(Rectangle::ZERO - off[i], |sum, j| {
                     let one = Rectangle::point(if i == j { Complex::ONE } else { Complex::ZERO });
                     let column = std::array::from_fn(|k| d[k][j]);
-                    sum = sum + (one - product(&y[i], column)) * around;
-                }
-                image[i] = sum;
-            }
-            // Squares within the square around 0, the region within what was evaluated: `around` is the smaller one.
+                    sum + (one - product(&y[i], column)) * around
+                })
+            });
+            // What was evaluated holds the square of this radius, and rounding beside it.
             let inner = Interval { lo: -radius, hi: radius };
             if image.iter().all(|z| z.is_inside(Rectangle { re: inner, im: inner })) {
                 let mut region = point;
@@ -137,7 +134,7 @@ impl Legs {
             }
             let most = image.iter().map(size).fold(0.0, f64::max);
             radius = 2.0 * most;
-            if !(radius < 1e-2) {
+            if radius.is_nan() || radius >= 1e-2 {
                 return None;
             }
         }

@@ -51,11 +51,7 @@ fn hyperplane(random: &mut Random) -> Quadric {
     let o = Complex::ZERO;
     let m =
         [[o, -d[0], -d[1], -d[2]], [d[0], o, s[2], -s[1]], [d[1], -s[2], o, s[0]], [d[2], s[1], -s[0], o]];
-    for i in 0..4 {
-        for j in 0..4 {
-            h.eg[i][j] = m[j][i];
-        }
-    }
+    h.eg = std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]));
     h
 }
 

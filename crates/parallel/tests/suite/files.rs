@@ -129,6 +129,13 @@ fn other_readers_say_what_it_is() {
     );
 }
 
+#[test]
+fn legs_have_no_negative_lengths() {
+    let text = catalogue::text("dietmaier").expect("it is listed").replace("forty = [1,", "forty = [-1,");
+    let found = errors(&text);
+    assert!(found.len() == 1 && found[0].message == "the length of a leg is not negative", "{found:?}");
+}
+
 /// Texts that nobody should write end, and end without a panic.
 #[test]
 fn hostile_files_end() {

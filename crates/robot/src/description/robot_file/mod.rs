@@ -13,7 +13,7 @@ mod write;
 mod write_axes;
 
 pub(super) use parameters::name_fault;
-pub use parallel::{VERBS as PARALLEL_VERBS, read_parallel};
+pub use parallel::{ParallelRead, VERBS as PARALLEL_VERBS, read_parallel};
 pub(super) use write::exact_rpy;
 pub use write::{write_linkage, write_toml, write_tree};
 pub use write_axes::{AxesAs, write_axes};

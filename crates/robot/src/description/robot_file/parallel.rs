@@ -16,11 +16,14 @@ const COMMON: &[&str] = &["kind", "name", "source", "parameters", "limits", "pos
 /// Verbs that serve these robots.
 pub const VERBS: &str = "`show`, `fk`, `ik` and `jacobian` serve it";
 
+/// What was read with warnings and notes, or all that was found where there are errors.
+pub type ParallelRead = Result<(Parallel, Vec<Diagnostic>), Vec<Diagnostic>>;
+
 /// Reads the file of a parallel robot; nothing of a text that says no `kind`. With what it describes come warnings and notes.
 ///
 /// # Errors
 /// All errors of the text (with the warnings and notes), in the order of the text.
-pub fn read_parallel(text: &str) -> Option<Result<(Parallel, Vec<Diagnostic>), Vec<Diagnostic>>> {
+pub fn read_parallel(text: &str) -> Option<ParallelRead> {
     if text.len() > MAX_BYTES {
         return None;
     }
@@ -282,7 +285,11 @@ impl Reader<'_> {
             let numbers: Vec<f64> = cells.iter().filter_map(|c| c.expr.eval(|_| None).ok()).collect();
             if let Some((name, span)) = cells.iter().flat_map(|c| &c.symbols).next() {
                 self.out.error(span.clone(), format!("`{name}` stands where a number is needed"));
-            } else if numbers.len() != 2 || !(numbers[0] <= numbers[1]) {
+            } else if numbers.len() != 2
+                || numbers[0].is_nan()
+                || numbers[1].is_nan()
+                || numbers[0] > numbers[1]
+            {
                 self.out.error(pair.span(), "the first limit is the least, the second the greatest");
             } else {
                 limits.push([cells[0].expr, cells[1].expr]);
@@ -317,6 +324,11 @@ impl Reader<'_> {
         }
         let style = Style::plain(family.measure().into());
         let read: Vec<Expr> = values.iter().filter_map(|v| self.constant(v, &style)).collect();
+        let is_negative = |e: &Expr| e.eval(|_| None).is_ok_and(|x| x < 0.0);
+        if matches!(family, Family::Stewart { .. }) && read.iter().any(is_negative) {
+            self.out.error(value.span(), "the length of a leg is not negative");
+            return None;
+        }
         (read.len() == values.len()).then_some(read)
     }
 
