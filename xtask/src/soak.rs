@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 const TARGETS: &[(&str, &str)] = &[
     ("formula", "fuzz/seeds/formula"),
     ("robot_file", "crates/robot/catalogue"),
+    ("parallel", "crates/parallel/catalogue"),
     ("table", "fuzz/seeds/table"),
     ("par", "fuzz/seeds/par"),
     ("urdf", "crates/robot/tests/urdf"),
@@ -73,11 +74,13 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 5] = [
+    let soaks: [(&str, &[&str]); 6] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
         ("denavit-elimination", &[]),
+        // A thousand Stewart platforms, deltas and planar robots by the hundred thousand.
+        ("denavit-parallel", &[]),
         // Files with IKFast's interface, at a hundred thousand poses each; generated code beside the library, at fifteen thousand.
         ("denavit-generate", &["ikfast::", "conformance::"]),
         // Documents that nobody should write; those that take minutes each are in no other test.

@@ -1,12 +1,14 @@
 //! From what stands on the command line to a robot.
 
 mod linkage;
+mod parallel;
 mod rows;
 mod urdf;
 
 pub use denavit_load::{Around, contents, frame, is_tree, joint};
 use linkage::closed_tree;
 pub use linkage::{WholeLinkage, linkage, loops, whole, without_chain};
+pub use parallel::{no_parallel, parallel};
 pub use urdf::bundle;
 
 use crate::arguments::{AngleUnit, LengthUnit, RobotArguments};
@@ -52,6 +54,7 @@ pub fn robot_file(arguments: &RobotArguments) -> Result<(Description, String), F
 }
 
 fn all(arguments: &RobotArguments) -> Result<(Description, String, Around), Failure> {
+    no_parallel(arguments)?;
     let name = catalogue_name(&arguments.robot);
     let listed = name.as_deref().and_then(|n| Some((n, listed(n)?)));
     check_options(arguments, listed.is_some())?;
@@ -201,6 +204,7 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
     if arguments.base.is_some() || arguments.tip.is_some() {
         return Ok(None);
     }
+    no_parallel(arguments)?;
     let name = arguments.robot.as_str();
     let listed = catalogue_name(name).and_then(|n| listed(&n)).map(str::to_string);
     let tree = match Kind::of(name) {

@@ -3,6 +3,7 @@
 use crate::text::bytes;
 use denavit::catalogue;
 use denavit::description::{Language, TableKind, root_element};
+use denavit_parallel::catalogue as parallel;
 use std::path::Path;
 
 /// The endings of files of bodies and joints, and those of others that are known.
@@ -54,7 +55,10 @@ impl Kind {
             let name = line.trim().strip_prefix("[[").and_then(|l| l.strip_suffix("]]"));
             name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
         };
-        let is_robot = text.lines().any(is_head);
+        // A parallel robot's file says what kind it is.
+        let is_kind =
+            |line: &str| line.trim().strip_prefix("kind").is_some_and(|l| l.trim_start().starts_with('='));
+        let is_robot = text.lines().any(|line| is_head(line) || is_kind(line));
         match () {
             () if has_bodies(text) => Kind::Bodies,
             () if is_robot => Kind::Robot,
@@ -88,16 +92,18 @@ pub fn catalogue_name(text: &str) -> Option<String> {
     (!is_path).then(|| text.to_lowercase().replace([' ', '_'], "-"))
 }
 
-/// The file of an arm of the catalogue, or of a structure or a linkage beside it.
+/// The file of an arm of the catalogue, or of a structure, a linkage or a parallel robot beside it.
 pub fn listed(name: &str) -> Option<&'static str> {
     catalogue::text(name)
         .or_else(|| catalogue::structure_text(name))
         .or_else(|| catalogue::linkage_text(name))
+        .or_else(|| parallel::text(name))
 }
 
 /// Names of the catalogue that may have been meant.
 pub fn close_names(name: &str) -> Vec<&'static str> {
     let names = catalogue::names().into_iter().chain(catalogue::structures()).chain(catalogue::linkages());
+    let names = names.chain(parallel::names());
     let mut close: Vec<&str> = names.filter(|n| similar(n, name)).collect();
     // What differs in signs alone is meant before all others.
     close.sort_by_key(|n| plain(n) != plain(name));

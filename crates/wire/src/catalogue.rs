@@ -3,6 +3,7 @@
 use crate::Schema;
 use crate::robot::joints;
 use denavit::catalogue;
+use denavit::description::parallel::Parallel;
 use denavit::description::{Description, Linkage, RowTree};
 use serde::Serialize;
 
@@ -11,6 +12,9 @@ use serde::Serialize;
 pub struct Catalogue {
     /// Arms and mechanisms with closed loops, in the order of their names.
     pub linkages: Vec<Closed>,
+    /// Parallel robots, in the order of their names; the page opens none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parallel: Vec<OnLegs>,
     /// In the order of their names.
     pub robots: Vec<Listed>,
     /// The version.
@@ -78,6 +82,34 @@ impl Closed {
     }
 }
 
+/// A parallel robot.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct OnLegs {
+    /// How many drives it has.
+    pub drives: usize,
+    /// `gough-stewart`, `delta` or `planar-3rrr`.
+    pub kind: &'static str,
+    /// What it is called on a command line: `rotary-delta`.
+    pub name: String,
+    /// Where its numbers come from.
+    pub source: Option<String>,
+    /// What people call it.
+    pub title: String,
+}
+
+impl OnLegs {
+    /// A parallel robot by its name.
+    pub fn of(name: &str, parallel: &Parallel) -> Self {
+        OnLegs {
+            drives: parallel.family.drives(),
+            kind: parallel.family.kind(),
+            name: name.into(),
+            source: parallel.source.clone(),
+            title: parallel.name.clone(),
+        }
+    }
+}
+
 /// A robot of the catalogue.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Listed {
@@ -107,6 +139,13 @@ impl Listed {
 }
 
 impl Catalogue {
+    /// The same with parallel robots.
+    #[must_use]
+    pub fn with<'a>(mut self, parallel: impl IntoIterator<Item = (&'a str, &'a Parallel)>) -> Self {
+        self.parallel = parallel.into_iter().map(|(name, p)| OnLegs::of(name, p)).collect();
+        self
+    }
+
     /// The robots, the structures and the linkages of lists.
     pub fn of<'a>(
         robots: impl IntoIterator<Item = (&'a str, &'a Description)>,
@@ -115,6 +154,7 @@ impl Catalogue {
     ) -> Self {
         Catalogue {
             linkages: linkages.into_iter().map(|(name, l)| Closed::of(name, l)).collect(),
+            parallel: vec![],
             robots: robots.into_iter().map(|(name, d)| Listed::of(name, d)).collect(),
             schema: Schema,
             structures: structures.into_iter().map(|(name, tree)| Structure::of(name, tree)).collect(),
@@ -128,6 +168,7 @@ impl Catalogue {
         let closed = |name| Some(Closed::of(name, &catalogue::linkage(name)?));
         Catalogue {
             linkages: catalogue::linkages().into_iter().filter_map(closed).collect(),
+            parallel: vec![],
             robots: catalogue::names().into_iter().filter_map(listed).collect(),
             schema: Schema,
             structures: catalogue::structures().into_iter().filter_map(structure).collect(),

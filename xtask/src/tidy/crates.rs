@@ -12,6 +12,7 @@ const PROGRAM: &str = "denavit-program";
 const EMIT: &str = "denavit-emit";
 const ELIMINATION: &str = "denavit-elimination";
 const ROBOT: &str = "denavit";
+const PARALLEL: &str = "denavit-parallel";
 const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
@@ -21,8 +22,21 @@ const LOAD: &str = "denavit-load";
 const JIT: &str = "denavit-jit";
 
 /// What a crate builds on, whatever it is for: none is a door, none is left of another without being named.
-const BELOW_DOORS: &[&str] =
-    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, REPORT, WIRE, LOAD];
+const BELOW_DOORS: &[&str] = &[
+    SYMBOLIC,
+    READING,
+    PROGRAM,
+    EMIT,
+    ELIMINATION,
+    ROBOT,
+    PARALLEL,
+    CHECK,
+    CERTIFICATE,
+    GENERATE,
+    REPORT,
+    WIRE,
+    LOAD,
+];
 
 /// Folders and packages, and the project's packages that each may use; tests may use more.
 const ALLOWED: &[(&str, &str, &[&str])] = &[
@@ -33,12 +47,13 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/elimination", ELIMINATION, &[]),
     ("crates/jit", JIT, &[SYMBOLIC, PROGRAM]),
     ("crates/robot", ROBOT, &[SYMBOLIC, PROGRAM, ELIMINATION]),
+    ("crates/parallel", PARALLEL, &[ROBOT]),
     ("crates/check", CHECK, &[SYMBOLIC, READING, PROGRAM, ROBOT]),
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
-    ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, REPORT]),
-    ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT]),
+    ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, REPORT]),
+    ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
     (
@@ -51,6 +66,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             EMIT,
             ELIMINATION,
             ROBOT,
+            PARALLEL,
             CHECK,
             CERTIFICATE,
             GENERATE,

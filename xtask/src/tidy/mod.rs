@@ -41,6 +41,7 @@ const SCIENCE: &[&str] = &[
     "crates/program/src/",
     "crates/emit/src/",
     "crates/robot/src/",
+    "crates/parallel/src/",
     "crates/check/src/",
     "crates/certificate/src/",
     "crates/generate/src/",

@@ -25,7 +25,8 @@ pub use view::ViewArguments;
 ///
 /// A ROBOT is a name from the catalogue (`denavit robots`), a robot file (.toml), a URDF (.urdf, .xacro), a model of MuJoCo
 /// (.xml, .mjcf), a .par file of SYMORO, a table as it stands in a document (.md, .txt, .csv, .tsv, .tex, .typ), or a program that
-/// makes a robot with a toolbox (.m, .py: Link, SerialLink, DHRobot, dhparams).
+/// makes a robot with a toolbox (.m, .py: Link, SerialLink, DHRobot, dhparams). Robot files of Stewart platforms, deltas and planar 3-RRR
+/// robots say their `kind`, and are for `show`, `fk`, `ik` and `jacobian`.
 /// Exit codes: 0 done, 1 the answer is no, 2 usage, 3 bad input, 4 not supported, 5 gave up.
 #[derive(Parser)]
 #[command(name = "denavit", version, max_term_width = 110)]
@@ -41,7 +42,7 @@ pub struct Arguments {
 /// The verbs.
 #[derive(Subcommand)]
 pub enum Command {
-    /// List the robots of the catalogue, and the trees and closed loops that come with the program
+    /// List the robots of the catalogue, and the trees, closed loops and parallel robots that come with the program
     Robots(RobotsArguments),
     /// Show a robot's table and what is special about its structure, or convert it to another convention
     Show(ShowArguments),
@@ -112,7 +113,8 @@ pub struct RobotArguments {
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
     /// How closed loops are assembled: the name of a mode in the robot file, or signs as `show` prints them, as in `--mode x` or
-    /// `--mode "+-"`; the first that is named otherwise
+    /// `--mode "+-"`; the first that is named otherwise. Of a parallel robot: the one of its poses (`fk`) or solutions (`ik`) that is
+    /// printed; all otherwise
     #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
     pub mode: Option<String>,
     /// Take the decimals of angles in a URDF or MJCF as they are: 1.5708 is not read as 90°

@@ -11,6 +11,7 @@ pub mod fk;
 pub mod generate;
 pub mod ik;
 pub mod jacobian;
+pub mod parallel;
 pub mod path;
 pub mod report;
 pub mod robots;

@@ -1,15 +1,17 @@
-//! `denavit robots`: the catalogue, and the structures and linkages beside it.
+//! `denavit robots`: the catalogue, and the structures, linkages and parallel robots beside it.
 
 use crate::arguments::RobotsArguments;
 use crate::failure::Failure;
 use crate::terminal::{Align, table};
 use denavit::catalogue;
+use denavit::description::parallel::Parallel;
 use denavit::description::{Description, Linkage, RowTree};
-use denavit_wire::catalogue::{Catalogue, Closed, Structure};
+use denavit_parallel::catalogue as on_legs;
+use denavit_wire::catalogue::{Catalogue, Closed, OnLegs, Structure};
 use denavit_wire::robot::joints;
 use std::io::Write;
 
-/// Lists the catalogue, the structures and the linkages.
+/// Lists the catalogue, the structures, the linkages and the parallel robots.
 ///
 /// # Errors
 /// If nothing can be written.
@@ -29,15 +31,20 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
         .filter_map(|name| Some((name, catalogue::linkage(name)?)))
         .filter(|(name, l)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &l.tree.name)))
         .collect();
+    let parallel: Vec<(&str, Parallel)> = on_legs::names()
+        .filter_map(|name| Some((name, on_legs::robot(name)?)))
+        .filter(|(name, p)| arguments.filter.as_ref().is_none_or(|text| matches(text, name, &p.name)))
+        .collect();
     let mut out = anstream::stdout();
-    let is_empty = robots.is_empty() && structures.is_empty() && linkages.is_empty();
+    let is_empty = robots.is_empty() && structures.is_empty() && linkages.is_empty() && parallel.is_empty();
     if let (true, Some(text)) = (is_empty, &arguments.filter) {
         return Err(Failure::No(format!("no robot of the catalogue matches `{text}`")));
     }
     if arguments.json {
         let trees = structures.iter().map(|(name, tree)| (*name, tree));
         let closed = linkages.iter().map(|(name, linkage)| (*name, linkage));
-        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)), trees, closed);
+        let list = Catalogue::of(robots.iter().map(|(name, d)| (*name, d)), trees, closed)
+            .with(parallel.iter().map(|(name, p)| (*name, p)));
         writeln!(out, "{}", denavit_wire::text(&list))?;
         return Ok(());
     }
@@ -66,6 +73,16 @@ pub fn run(arguments: &RobotsArguments) -> Result<(), Failure> {
     if !rows.is_empty() {
         let header = ["name", "closed loops", "driven", "passive", "loops"];
         write!(out, "{gap}{}", table(&header, &[Align::Left; 5], &rows))?;
+    }
+    let gap = if robots.is_empty() && structures.is_empty() && linkages.is_empty() { "" } else { "\n" };
+    let rows: Vec<Vec<String>> = parallel
+        .iter()
+        .map(|(name, p)| OnLegs::of(name, p))
+        .map(|p| vec![p.name, p.title, p.kind.into(), p.drives.to_string()])
+        .collect();
+    if !rows.is_empty() {
+        let header = ["name", "parallel", "kind", "drives"];
+        write!(out, "{gap}{}", table(&header, &[Align::Left; 4], &rows))?;
     }
     Ok(())
 }

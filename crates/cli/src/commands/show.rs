@@ -2,6 +2,7 @@
 
 use crate::arguments::ShowArguments;
 use crate::commands::fk::{configuration, linkage};
+use crate::commands::parallel;
 use crate::commands::report::put;
 use crate::failure::{Failure, without_values};
 use crate::load;
@@ -27,6 +28,9 @@ use std::path::Path;
 /// # Errors
 /// If there is no such robot or nothing can be written.
 pub fn run(arguments: &ShowArguments) -> Result<(), Failure> {
+    if let Some((parallel, text)) = load::parallel(&arguments.robot)? {
+        return parallel::show(arguments, &parallel, &text);
+    }
     if let Some(closed) = load::without_chain(&arguments.robot)? {
         return without_chain(arguments, &closed);
     }

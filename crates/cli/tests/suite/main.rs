@@ -15,6 +15,7 @@ mod ik;
 mod languages;
 mod linkages;
 mod motion;
+mod parallel;
 mod stream;
 mod trees;
 mod view;

@@ -20,6 +20,7 @@ mod mjcf;
 mod named;
 mod names;
 mod order;
+pub mod parallel;
 mod parameters;
 mod periods;
 mod reader;
@@ -53,8 +54,8 @@ pub use mjcf::{read_mjcf, refused_masses, write_mjcf};
 pub use order::{Cell, Screw, Screws};
 pub use parameters::MissingValue;
 pub use robot_file::{
-    AxesAs, Described, MAX_BYTES, MAX_ROWS, read_robot, read_toml, write_axes, write_linkage, write_toml,
-    write_tree,
+    AxesAs, Described, MAX_BYTES, MAX_ROWS, PARALLEL_VERBS, ParallelRead, read_parallel, read_robot,
+    read_toml, write_axes, write_linkage, write_toml, write_tree,
 };
 pub use same::{SameMechanism, Sameness, same_mechanism};
 pub use sources::{Alone, Files, Sources};

@@ -1,4 +1,5 @@
 //! Tests of the JSON of all doors, one program.
 
 mod answers;
+mod parallel;
 mod shapes;

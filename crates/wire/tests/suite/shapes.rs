@@ -51,6 +51,7 @@ fn every_name_is_documented() {
         said.extend(answers(name).iter().flat_map(|(_, answer)| keys_of(answer)));
     }
     said.extend(keys_of(&judged()));
+    said.extend(super::parallel::answers().iter().flat_map(|answer| keys_of(answer)));
     // The letters of tables are those of the conventions.
     let letters = ["a", "alpha", "b", "d", "gamma", "r", "theta"];
     let missing: Vec<&String> = said

@@ -6,7 +6,7 @@ mod stream;
 pub mod tree;
 
 use crate::arguments::{FkArguments, Format};
-use crate::commands::derive;
+use crate::commands::{derive, parallel};
 use crate::failure::{Failure, without_values};
 use crate::load::{self, Around, Tree};
 use crate::terminal::{Align, HEADING, NAME, lowered, matrix, noise, note, number, raised, styled};
@@ -26,6 +26,9 @@ use std::io::Write;
 /// # Errors
 /// If the robot or the configuration cannot be read, a parameter has no value, or nothing can be written.
 pub fn run(arguments: &FkArguments) -> Result<(), Failure> {
+    if let Some((parallel, _)) = load::parallel(&arguments.robot)? {
+        return parallel::fk(arguments, &parallel);
+    }
     if let Some(closed) = load::without_chain(&arguments.robot)? {
         return linkage::run(arguments, &closed);
     }

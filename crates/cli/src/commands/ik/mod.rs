@@ -8,7 +8,7 @@ mod summary;
 
 use crate::arguments::{Format, IkArguments};
 use crate::commands::fk::configuration;
-use crate::commands::{certificate, document};
+use crate::commands::{certificate, document, parallel};
 use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::{note, words};
@@ -33,6 +33,9 @@ use std::io::Write;
 /// # Errors
 /// If something cannot be read, there is no closed form, or the pose is not reachable.
 pub fn run(arguments: &IkArguments) -> Result<(), Failure> {
+    if let Some((parallel, _)) = load::parallel(&arguments.robot)? {
+        return parallel::ik(arguments, &parallel);
+    }
     if let Some(closed) = load::without_chain(&arguments.robot)? {
         return linkage::run(arguments, &closed);
     }

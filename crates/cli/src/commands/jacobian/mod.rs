@@ -9,6 +9,7 @@ mod symbolic;
 use crate::arguments::{Format, JacobianArguments};
 use crate::commands::derive::reference;
 use crate::commands::fk::{configuration, plural};
+use crate::commands::parallel;
 use crate::failure::{Failure, without_values};
 use crate::load;
 use answer::{Answer, Questions};
@@ -26,6 +27,9 @@ use std::io::Write;
 /// # Errors
 /// If the robot, the configuration or an option cannot be read, a parameter has no value, or nothing can be written.
 pub fn run(arguments: &JacobianArguments) -> Result<(), Failure> {
+    if let Some((parallel, _)) = load::parallel(&arguments.robot)? {
+        return parallel::jacobian(arguments, &parallel);
+    }
     if let Some(closed) = load::without_chain(&arguments.robot)? {
         return linkage::run(arguments, &closed);
     }

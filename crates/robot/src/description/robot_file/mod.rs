@@ -6,11 +6,13 @@ mod fields;
 mod frames;
 mod joints;
 mod masses;
+mod parallel;
 mod parameters;
 mod tree;
 mod write;
 mod write_axes;
 
+pub use parallel::{ParallelRead, VERBS as PARALLEL_VERBS, read_parallel};
 pub(super) use parameters::name_fault;
 pub(super) use write::exact_rpy;
 pub use write::{write_linkage, write_toml, write_tree};
@@ -113,6 +115,12 @@ impl Reader<'_> {
         let fields = Fields::new(table, 0..0);
         if let Some(given) = axes::Given::of(&fields) {
             return self.axes_description(&fields, given);
+        }
+        if let Some(kind) = fields.get("kind") {
+            self.out
+                .error(kind.span(), "a parallel robot: it is no chain of rows")
+                .hint(format!("{PARALLEL_VERBS}; a file of rows has no `kind`"));
+            return None;
         }
         self.unknown_keys(&fields, KEYS, top_level_hint);
         let name = self.string(fields.get("name")).unwrap_or_else(|| "robot".into());
