@@ -168,7 +168,7 @@ fn files_are_shown_and_other_verbs_refuse_them() {
         for verb in ["derive", "dynamics", "report", "generate", "convert", "path", "exercise", "view"] {
             let more: &[&str] = match verb {
                 "generate" => &["--language", "c", "-o", "arm-c"],
-                "exercise" => &["--kind", "inverse"],
+                "exercise" => &["--kind", "fk"],
                 "convert" => &["--to", "urdf"],
                 "report" => &["-o", "report.md"],
                 "path" => &["-q", "0", "--line", "0,0,1"],
