@@ -55,9 +55,12 @@ impl Kind {
             let name = line.trim().strip_prefix("[[").and_then(|l| l.strip_suffix("]]"));
             name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
         };
-        // A parallel robot's file says what kind it is.
-        let is_kind =
-            |line: &str| line.trim().strip_prefix("kind").is_some_and(|l| l.trim_start().starts_with('='));
+        // A parallel robot's file says which of these it is.
+        let kinds = ["\"gough-stewart\"", "\"delta\"", "\"planar-3rrr\""];
+        let is_kind = |line: &str| {
+            let value = line.trim().strip_prefix("kind").and_then(|l| l.trim_start().strip_prefix('='));
+            value.is_some_and(|v| kinds.iter().any(|k| v.trim_start().starts_with(k)))
+        };
         let is_robot = text.lines().any(|line| is_head(line) || is_kind(line));
         match () {
             () if has_bodies(text) => Kind::Bodies,

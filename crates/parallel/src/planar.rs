@@ -135,27 +135,35 @@ impl Planar {
             let t = middle(x);
             if is_far { 2.0 * 1.0_f64.atan2(t) } else { 2.0 * t.atan() }
         };
+        let mut unproved = vec![];
         for (roots, is_far) in [(&near, false), (&far, true)] {
             for x in &roots.isolated {
-                let is_proved = !p.delta_at(x, is_far).holds_zero();
-                let found = self.assemblies(angles(x, is_far), &elbows, is_proved);
-                all.is_complete &= is_proved && found.len() == 1;
+                let angle = angles(x, is_far);
+                // One position belongs to the angle.
+                if p.delta_at(x, is_far).holds_zero() {
+                    unproved.push(angle);
+                    continue;
+                }
+                let found = self.assemblies(angle, &elbows, true);
+                all.is_complete &= found.len() == 1;
                 all.assemblies.extend(found);
             }
-            for x in &roots.doubtful {
-                let found = self.assemblies(angles(x, is_far), &elbows, false);
-                for a in found {
-                    let apart = |b: &PlanarAssembly| {
-                        let [x, y] = [0, 1].map(|k| a.pose.position[k] - b.pose.position[k]);
-                        let turn = (a.pose.angle - b.pose.angle).sin().abs();
-                        x.hypot(y).max(turn * self.size()) > 1e-5 * self.size()
-                    };
-                    if all.assemblies.iter().all(apart) {
-                        all.assemblies.push(a);
-                    }
-                }
+            unproved.extend(roots.doubtful.iter().map(|x| angles(x, is_far)));
+        }
+        all.is_complete &= unproved.is_empty();
+        let same = |a: &PlanarAssembly, b: &PlanarAssembly| {
+            let [x, y] = [0, 1].map(|k| a.pose.position[k] - b.pose.position[k]);
+            let turn = 2.0 * (0.5 * (a.pose.angle - b.pose.angle)).sin().abs();
+            x.hypot(y).max(turn * self.size()) < 1e-6 * self.size()
+        };
+        for a in unproved.into_iter().flat_map(|angle| self.assemblies(angle, &elbows, false)) {
+            if !all.assemblies.iter().any(|b| same(&a, b)) {
+                all.assemblies.push(a);
             }
         }
+        // Newton's method may bring two near ones together.
+        let each = all.assemblies.iter().enumerate();
+        all.is_complete &= !each.clone().any(|(i, a)| all.assemblies[..i].iter().any(|b| same(a, b)));
         all.assemblies.sort_by(|a, b| a.pose.angle.total_cmp(&b.pose.angle));
         all
     }
@@ -176,20 +184,19 @@ impl Planar {
         let r = self.second;
         let h = [0, 1].map(|i| r[i + 1] * r[i + 1] - r[0] * r[0] - d[i].norm2());
         let delta = (d[0].conj() * d[1]).im;
-        let x = if delta.abs() > 1e-9 * (d[0].abs() * d[1].abs()) {
-            vec![Complex::new(0.0, 0.5 / delta) * (d[0] * h[1] - d[1] * h[0])]
-        } else {
-            // The two lines are one: where it meets the circle.
+        let mut x = vec![Complex::new(0.0, 0.5 / delta) * (d[0] * h[1] - d[1] * h[0])];
+        x.retain(|x| x.norm2().is_finite());
+        if !is_proved {
+            // Where the two lines are nearly one: where it meets the circle.
             let k = usize::from(d[1].norm2() > d[0].norm2());
             let far = d[k].abs();
-            if far < 1e-12 * self.size() {
-                return vec![];
-            }
             let along = d[k] * (1.0 / far);
             let m = h[k] / (2.0 * far);
             let s = (r[0] * r[0] - m * m).max(0.0).sqrt();
-            Sign::BOTH.map(|sign| along * Complex::new(m, sign.factor() * s)).to_vec()
-        };
+            if far > 1e-12 * self.size() {
+                x.extend(Sign::BOTH.map(|sign| along * Complex::new(m, sign.factor() * s)));
+            }
+        }
         let start = |x: Complex| {
             let p = x + c[0] - z * b[0];
             PlanarPose { position: [p.re, p.im], angle }
@@ -211,7 +218,8 @@ impl Planar {
             off.fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
         };
         let mut best = residual(&pose);
-        for _ in 0..6 {
+        // Where poses meet it is slow.
+        for _ in 0..60 {
             let (mut rows, mut f) = ([[Complex::ZERO; 3]; 3], [Complex::ZERO; 3]);
             for (i, r) in rods(&pose).into_iter().enumerate() {
                 let at = self.held(i, &pose);
@@ -232,7 +240,7 @@ impl Planar {
             (pose, best) = (next, off);
         }
         pose.angle = pose.angle.sin().atan2(pose.angle.cos());
-        (best < 1e-7 * self.size()).then_some((pose, best))
+        (best < 1e-11 * self.size()).then_some((pose, best))
     }
 
     /// |N|² − 4 r₁² δ² as a polynomial of tan(φ/2), and δ.

@@ -167,7 +167,8 @@ fn files_are_shown_and_other_verbs_refuse_them() {
         assert!(code == 0 && formulas.contains("inverse"), "{formulas}");
         for verb in ["derive", "dynamics", "report", "generate", "convert", "path", "exercise", "view"] {
             let more: &[&str] = match verb {
-                "generate" => &["--language", "c"],
+                "generate" => &["--language", "c", "-o", "arm-c"],
+                "exercise" => &["--kind", "fk"],
                 "convert" => &["--to", "urdf"],
                 "report" => &["-o", "report.md"],
                 "path" => &["-q", "0", "--line", "0,0,1"],

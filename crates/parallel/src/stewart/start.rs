@@ -1,8 +1,8 @@
 //! Six hyperplanes in P¹⁶ with all of their forty solutions, from which those of every platform are followed.
 //!
-//! The hyperplanes are drawn by a generator; the solutions stand in `forty.txt` (a line each: e and g, real and
-//! imaginary parts in turn), found by [`monodromy`] from one pose through which the
-//! hyperplanes were laid. A test finds them again.
+//! The hyperplanes are drawn by a generator; the solutions stand in `forty.txt` (a line each: e and g, real and imaginary parts in turn),
+//! found by [`monodromy`] from one pose through which the hyperplanes were laid. A test finds them again, and another sees by
+//! [`trace_defect`] that there are no more.
 
 pub use super::equations::{Study, apart, norm};
 
@@ -107,4 +107,24 @@ pub fn monodromy() -> Vec<Study> {
         }
     }
     known
+}
+
+/// By how much the sum of g·g/e·e over these solutions is not linear where the first hyperplane moves parallel to itself, as a part of the
+/// sum: the trace test (Sommese, Verschelde and Wampler 2002). It is 0, but for rounding, for all solutions together and for no part of them.
+pub fn trace_defect(solutions: &[Study]) -> f64 {
+    let (home, _) = hyperplanes();
+    let sum = |along: f64| {
+        let mut moved = home;
+        for (i, row) in moved[0].ee.iter_mut().enumerate() {
+            row[i] += Complex::new(0.3, 0.4) * along;
+        }
+        let line = Line::new(&home, &[Complex::ONE; 6], &moved);
+        solutions.iter().fold(Complex::ZERO, |sum, start| {
+            let x = line.follow(start, Care::MORE).x;
+            let square = |part: &[Complex]| part.iter().fold(Complex::ZERO, |sum, &z| sum + z * z);
+            sum + square(&x[4..]) / square(&x[..4])
+        })
+    };
+    let [a, b, c] = [0.0, 1.0, 2.0].map(sum);
+    (a - b * 2.0 + c).abs() / (a.abs() + b.abs() + c.abs())
 }

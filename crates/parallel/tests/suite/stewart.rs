@@ -185,3 +185,15 @@ fn the_forty_starting_points_are_found_again() {
         assert!(n.abs() > 1e-6);
     }
 }
+
+/// Forty is the degree of the variety: the trace of all forty is linear, and that of fewer is not.
+#[test]
+fn the_forty_are_all_that_there_are() {
+    let all = start::solutions();
+    assert!(start::trace_defect(&all) < 1e-9, "{:e}", start::trace_defect(&all));
+    for left_out in [0, 13, 39] {
+        let mut fewer = all.clone();
+        fewer.remove(left_out);
+        assert!(start::trace_defect(&fewer) > 1e-6, "{left_out}");
+    }
+}
