@@ -1,5 +1,6 @@
 //! Ways of writing that are turned into those that are read, byte for byte: each place stays where it is.
 
+use super::components;
 use super::displayed;
 use super::macros;
 use std::borrow::Cow;
@@ -17,7 +18,7 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 17] = [
+    let of_prose: [fn(&str) -> Option<String>; 18] = [
         macros::written_out,
         macros::values_in_tables,
         without_french_blanks,
@@ -35,6 +36,7 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         columns_by_words,
         torques_by_words,
         displayed::bracketed,
+        components::with_frames,
     ];
     if let Some(now) = script_without_head(&text).filter(|_| is_program) {
         text = Cow::Owned(now);
