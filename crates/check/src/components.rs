@@ -61,8 +61,10 @@ fn rotations(frame: char) -> Vec<String> {
 
 /// A text without the commands that change the looks of a letter, and without the braces around one.
 fn without_looks(text: &str) -> String {
+    // `\\ ` and `\\,` set letters apart.
+    let text = ["\\ ", "\\,", "\\;"].iter().fold(text.to_string(), |t, blank| t.replace(blank, ","));
     let looks = ["\\boldsymbol", "\\mathbf", "\\bm", "\\vec", "\\mathrm"];
-    let bare = looks.iter().fold(text.to_string(), |t, look| t.replace(look, ""));
+    let bare = looks.iter().fold(text, |t, look| t.replace(look, ""));
     let chars: Vec<char> = bare.chars().filter(|c| *c != ' ').collect();
     let mut out = String::new();
     let mut at = 0;

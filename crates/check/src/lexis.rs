@@ -195,6 +195,13 @@ impl Lexis {
         }
     }
 
+    /// What `s_{234}` is in inverse formulas, where an angle is found before its parts.
+    pub fn define_inverse_sine(&mut self, name: &str, meaning: Expr) {
+        if literals(meaning) <= MAX_LITERALS {
+            self.inverse = std::mem::take(&mut self.inverse).alias(name, meaning);
+        }
+    }
+
     /// A name for an entry of a matrix that is known from the robot.
     pub fn define_right(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
         self.define(name, meaning);

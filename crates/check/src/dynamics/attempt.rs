@@ -4,6 +4,7 @@ use super::bodies::bodies;
 use super::letters::{Letters, letters, maps};
 use super::measures::{Measures, measures};
 use super::model::{ALONG, COUPLED, Coordinates, Model, Numbers, Rotor, moving_rows, numbers};
+use super::points::jacobians;
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
 use super::told::{Told, told};
@@ -109,7 +110,9 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
         return None;
     }
     let sources = all.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
-    let mentioned: BTreeSet<String> = sources.flat_map(words).collect();
+    let mut mentioned: BTreeSet<String> = sources.flat_map(words).collect();
+    let jacobians = jacobians(text, all);
+    mentioned.retain(|w| !jacobians.contains(w));
     let symbols = Rc::new(Symbols::new(n));
     let has_rotor = mentioned.iter().any(|w| matches!(role(w, n), Some(Role::Rotor(_))));
     let generic = symbols.bodies.iter().map(|b| -> Numbers {
