@@ -135,6 +135,13 @@ fn told_order(text: &str) -> Option<Columns> {
                     letters.push(word.chars().next().filter(|_| word.chars().count() == 1).unwrap_or('.'));
                     word.len()
                 }
+                // In a frame: `n^3`.
+                '^' => {
+                    let index = rest[1..].strip_prefix('{').unwrap_or(&rest[1..]);
+                    let digits = index.chars().take_while(char::is_ascii_digit).count();
+                    let braces = if rest[1..].starts_with('{') { 1 } else { 0 };
+                    1 + braces + digits
+                }
                 // `n + s + a` is no list.
                 ' ' | ',' | '$' | '{' | '}' | '[' | ']' | '(' | ')' | '&' | '|' | ';' => 1,
                 c => {

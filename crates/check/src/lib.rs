@@ -56,6 +56,7 @@ mod recognised;
 mod remarks;
 mod respelling;
 mod scripts;
+mod signs;
 mod spoken_loads;
 mod still_rows;
 mod subject;

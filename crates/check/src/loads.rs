@@ -140,7 +140,8 @@ fn frame_of_load(text: &str) -> Option<usize> {
             }
         }
     }
-    found.map(|k| k as usize)
+    // Frame 0 may be the base.
+    found.map(|k| k as usize).filter(|k| *k > 0)
 }
 
 /// Commands that change the looks of a letter.
@@ -235,7 +236,7 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
     if load.iter().all(|e| e.is_zero()) {
         return;
     }
-    let told = frame_of_load(text).and_then(|k| subject.transform(Some(0), Some(k)));
+    let told = frame_of_load(text).and_then(|k| subject.placed(k));
     let in_hand = || Some(subject.pose()).filter(|_| habits.load_in_hand);
     if let Some(turn) = told.or_else(in_hand).map(|x| x.rotation) {
         let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);

@@ -50,10 +50,7 @@ fn numbers_in_code(text: &str) -> BTreeSet<&str> {
             n.starts_with(char::is_alphabetic) && n.chars().all(|c| c.is_alphanumeric() || c == '_')
         };
         let is_number = |v: &&str| v.parse::<f64>().is_ok();
-        if names.len() == values.len()
-            && names.iter().all(|n| is_name(&n))
-            && values.iter().all(|v| is_number(&v))
-        {
+        if names.len() == values.len() && names.iter().all(is_name) && values.iter().all(is_number) {
             found.extend(names);
         }
     }

@@ -38,7 +38,7 @@ fn loads_along_the_axes_of_any_frame() {
     for name in ["scara", "planar-3r", "gantry-wrist"] {
         let d = robot(name);
         let names = ["Fx", "Fy", "Fz"].iter().fold(d.vocabulary(), |v, f| v.symbol(f));
-        for frame in 0..=d.rows.len() {
+        for frame in 1..=d.rows.len() {
             let right = torques(&d, frame);
             let sheet = |torques: &[Expr]| {
                 let mut text = format!(
