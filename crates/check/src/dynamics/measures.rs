@@ -58,6 +58,8 @@ fn name_before(text: &str) -> Option<(String, &str)> {
     let name = &text[text.len() - length..];
     // The last of `2 m_1` or `l/m_1` is none.
     let rest = text[..text.len() - length].trim_end_matches([' ', '$', '(']);
+    // Words in bold letters: `**Numbers.** $m_1 = …$`.
+    let rest = rest.strip_suffix("**").unwrap_or(rest);
     let before = rest.chars().next_back();
     if name.starts_with(|c: char| c.is_ascii_digit()) || before.is_some_and(|c| "+-*/^·<>−".contains(c)) {
         return None;

@@ -2,6 +2,7 @@
 
 use super::scalars::replaced;
 use super::{Scalar, Walk};
+use denavit_reading::slip::Points;
 use denavit_symbolic::parse::SyntaxKind;
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Node};
@@ -23,8 +24,13 @@ impl Walk<'_> {
             // `s_{234} = …`, an angle that is found before its parts.
             let joints = self.subject.joints();
             let parts = sine.symbols().into_iter().filter(|s| joints.contains(&(*s).into())).count();
-            if let ([value], true) = (&values[..], parts > 1) {
-                self.lexis.define_inverse_sine(&plain_name(self.source(&spans[0])), *value);
+            let is_right = || {
+                let mut points = Points::new(61);
+                let right = points.value(sine);
+                matches!(&read[1], Scalar::Formula(_, s) if right.is_some() && points.value(s.value()) == right)
+            };
+            if let ([value], true) = (&values[..], parts > 1 && is_right()) {
+                self.lexis.define_sine(&plain_name(self.source(&spans[0])), *value);
             }
             self.sines.push((sine, values));
         }

@@ -260,3 +260,25 @@ fn vectors_below_one_another_are_each_their_own() {
     assert_eq!(all(&found, "p2"), [Standing::Wrong], "{:?}", found.claims);
     assert_eq!(all(&found, "R"), [Standing::Equal], "{:?}", found.claims);
 }
+
+#[test]
+fn entries_in_numbers_at_a_configuration() {
+    let of = |numbers: &str, words: &str| {
+        let text = format!(
+            "{PLANAR}The centre of mass of link i lies at the distance r_i from joint i, I_i is the inertia about it.\n\n\
+             $$M_{{11}}=I_1+I_2+m_1r_1^2+m_2(l_1^2+r_2^2+2l_1r_2c_2)$$\n\n$$M_{{12}}=I_2+m_2(r_2^2+l_1r_2c_2)$$\n\n\
+             $$M_{{22}}=I_2+m_2r_2^2$$\n\n$$G_1=(m_1r_1+m_2l_1)gc_1+m_2r_2gc_{{12}}$$\n\n\
+             **Numbers.** $l_1=l_2=0.5$, $r_1=r_2=0.25$ (m), $m_1=4$, $m_2=2$ (kg), $I_1=0.08$, $I_2=0.04$ (kg m²), $g=9.81$, at \
+             $q_1=0°$, $q_2=90°$:\n\n{words}$${numbers}$$\n"
+        );
+        let found = read(&text, Format::Markdown, None, None);
+        ["M_{11}", "M_{12}", "G_1"].map(|n| all(&found, n).last().copied())
+    };
+    let equal = Some(Standing::Equal);
+    assert_eq!(of("M_{11}=0.995,\\qquad M_{12}=0.165,\\qquad G_1=19.62", ""), [equal; 3]);
+    let found = of("M_{11}=0.995,\\qquad M_{12}=0.175,\\qquad G_1=24.525", "");
+    assert_eq!(found, [equal, Some(Standing::Wrong), Some(Standing::Wrong)]);
+    // With words between they may be those of another configuration.
+    let found = of("M_{11}=0.995,\\qquad M_{12}=0.175", "With the elbow stretched again we have\n\n");
+    assert_eq!(found[1], Some(Standing::Undecided));
+}
