@@ -282,3 +282,17 @@ fn entries_in_numbers_at_a_configuration() {
     let found = of("M_{11}=0.995,\\qquad M_{12}=0.175", "With the elbow stretched again we have\n\n");
     assert_eq!(found[1], Some(Standing::Undecided));
 }
+
+#[test]
+fn sums_of_joints_are_found_before_their_parts() {
+    let text = include_str!("../labelled/kestrel_ik.py");
+    let of = |text: &str| {
+        let found = read(text, Format::Markdown, None, Some(Dialect::Python));
+        ["c234", "q3", "q2"].map(|n| all(&found, n))
+    };
+    assert_eq!(of(text), [(); 3].map(|()| vec![Standing::Equal]));
+    // What rests on a wrong one is not at fault.
+    let found = of(&text.replace("c234 = s6*r31 + c6*r32", "c234 = s6*r31 - c6*r32"));
+    assert_eq!(found[0], [Standing::Wrong]);
+    assert!(!found[1..].iter().flatten().any(|s| *s == Standing::Wrong), "{found:?}");
+}
