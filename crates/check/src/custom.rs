@@ -38,6 +38,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
+    super::components::of_columns(subject, &plain, places, &mut add);
     super::directions::direction(subject, &plain, places, &mut add);
     for letters in hand_letters(text) {
         for (r, name) in letters.iter().enumerate() {

@@ -475,6 +475,8 @@ pub enum Unproved {
     OtherJoints,
     /// A table has names that are not the robot's.
     OtherNames,
+    /// It is a torque for a load of which another torque has a component that is not known.
+    OpenLoad,
     /// What the judge of values says.
     Values(Undecided),
 }

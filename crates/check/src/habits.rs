@@ -89,6 +89,8 @@ pub(super) enum Columns {
     Snap,
     /// n, s, a, o: the place of the hand is o.
     Nsao,
+    /// n, s, a, p
+    Nsap,
 }
 
 impl Columns {
@@ -97,6 +99,7 @@ impl Columns {
             Columns::Noap => ["n", "o", "a", "p"],
             Columns::Snap => ["s", "n", "a", "p"],
             Columns::Nsao => ["n", "s", "a", "o"],
+            Columns::Nsap => ["n", "s", "a", "p"],
         }
     }
 
@@ -107,8 +110,61 @@ impl Columns {
         if is_place && !['n', 's', 'p', 'P'].iter().any(|&c| has_component(text, c)) {
             return Columns::Nsao;
         }
+        if let Some(told) = told_order(text) {
+            return told;
+        }
         if has_component(text, 'o') || !has_component(text, 's') { Columns::Noap } else { Columns::Snap }
     }
+}
+
+/// The order in which a text names the columns of a pose one after another: `R = [n s a]`, `s, n, a, P`; nothing where it
+/// names several.
+fn told_order(text: &str) -> Option<Columns> {
+    const LONGEST: usize = 400;
+    let mut found = None;
+    for line in text.lines().filter(|l| l.len() < LONGEST && l.contains(['n', 'N'])) {
+        // Commands change looks alone: `{\boldsymbol n}\ {\boldsymbol s}`.
+        let mut letters: Vec<char> = vec![];
+        let mut rest = line;
+        while let Some(c) = rest.chars().next() {
+            let length = match c {
+                '\\' => 1 + rest[1..].chars().take_while(char::is_ascii_alphabetic).count(),
+                c if c.is_alphanumeric() || c == '_' => {
+                    let word: String =
+                        rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                    letters.push(word.chars().next().filter(|_| word.chars().count() == 1).unwrap_or('.'));
+                    word.len()
+                }
+                // In a frame: `n^3`.
+                '^' => {
+                    let index = rest[1..].strip_prefix('{').unwrap_or(&rest[1..]);
+                    let digits = index.chars().take_while(char::is_ascii_digit).count();
+                    let braces = if rest[1..].starts_with('{') { 1 } else { 0 };
+                    1 + braces + digits
+                }
+                // `n + s + a` is no list.
+                ' ' | ',' | '$' | '{' | '}' | '[' | ']' | '(' | ')' | '&' | '|' | ';' => 1,
+                c => {
+                    letters.push('.');
+                    c.len_utf8()
+                }
+            };
+            rest = &rest[length..];
+        }
+        for window in letters.windows(3) {
+            let told = match window {
+                ['n', 'o', 'a'] => Columns::Noap,
+                ['s', 'n', 'a'] => Columns::Snap,
+                ['n', 's', 'a'] => Columns::Nsap,
+                _ => continue,
+            };
+            if found.is_some_and(|other| other != told) {
+                return None;
+            }
+            found = Some(told);
+        }
+    }
+    found
 }
 
 /// True if a text has the first component of a vector: `s_x`, `s_{x}`, `sx` as a word of its own.

@@ -56,7 +56,7 @@ impl Subject {
     ) -> Option<(Matrix, Jacobian)> {
         let (rows, columns) = printed.shape()?;
         if (2..self.joints().len()).contains(&columns) {
-            return self.jacobian_of_first_joints(printed);
+            return self.jacobian_of_first_joints(printed, told);
         }
         if rows > 6 || columns != self.joints().len() {
             return None;
@@ -98,9 +98,9 @@ impl Subject {
     }
 
     /// That of a point which the first joints alone move, as the wrist centre, if most of the matrix agrees with it.
-    fn jacobian_of_first_joints(&self, printed: &Matrix) -> Option<(Matrix, Jacobian)> {
+    fn jacobian_of_first_joints(&self, printed: &Matrix, told: &Told) -> Option<(Matrix, Jacobian)> {
         let (rows, columns) = printed.shape().filter(|s| (2..=3).contains(&s.0))?;
-        let axes = self.ground();
+        let axes = told.axes.filter(|k| *k <= self.last()).map_or_else(|| self.ground(), Reference::Frame);
         let mut best: Option<(usize, Reference, Vec<Vec<Expr>>)> = None;
         let bodies = (columns..=self.last()).map(Reference::Frame).chain([Reference::Tool]);
         for body in bodies {

@@ -43,6 +43,8 @@ pub(super) struct Lexis {
     by_custom: BTreeSet<String>,
     matrices: BTreeMap<String, (Matrix, Option<Meaning>)>,
     scalars: Vec<(String, Expr)>,
+    /// Sines and cosines of sums of joints, by what the document finds them from the pose.
+    sines: Vec<(String, Expr)>,
     /// Matrices of the document in the entries of the pose as symbols.
     posed: BTreeMap<String, Matrix>,
     /// Frames named by letters are anywhere.
@@ -65,6 +67,7 @@ impl Lexis {
             by_custom: BTreeSet::new(),
             matrices: BTreeMap::new(),
             scalars: vec![],
+            sines: vec![],
             posed: BTreeMap::new(),
             anywhere: Cell::new(false),
             is_posed: Cell::new(false),
@@ -195,6 +198,14 @@ impl Lexis {
         }
     }
 
+    /// What `s_{234}` is in inverse formulas, where an angle is found before its parts; in print it stays what it is.
+    pub fn define_sine(&mut self, name: &str, meaning: Expr) {
+        if literals(meaning) <= MAX_LITERALS && self.sines.len() < MAX_NAMES {
+            self.sines.retain(|s| s.0 != name);
+            self.sines.push((name.to_string(), meaning));
+        }
+    }
+
     /// A name for an entry of a matrix that is known from the robot.
     pub fn define_right(&mut self, name: &str, meaning: Expr, in_inverse: Expr) {
         self.define(name, meaning);
@@ -266,7 +277,9 @@ impl Lexis {
     /// # Errors
     /// As [`Lexis::formula`].
     pub fn inverse_formula(&self, text: &str, span: &Range<usize>) -> Result<Syntax, Vec<ParseError>> {
-        read(text, span, &self.inverse).map(|s| self.habits.ordered(s))
+        let names = |names: Vocabulary| self.sines.iter().fold(names, |names, (n, e)| names.alias(n, *e));
+        let own = (!self.sines.is_empty()).then(|| names(self.inverse.clone()));
+        read(text, span, own.as_ref().unwrap_or(&self.inverse)).map(|s| self.habits.ordered(s))
     }
 
     /// The one name that a text is, without powers.

@@ -3,6 +3,7 @@
 
 use super::CheckOptions;
 use super::lines::lines;
+use super::still_rows::still;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{Convention, TableKind, TableOptions};
 use denavit_reading::code::Dialect;
@@ -25,10 +26,10 @@ enum Column {
 const COLUMNS: [Column; 4] = [Column::Theta, Column::D, Column::A, Column::Alpha];
 
 /// Rows with their places, and what else is known of them.
-struct Listing {
+pub(super) struct Listing {
     span: Range<usize>,
     /// θ, d, a, α.
-    rows: Vec<[String; 4]>,
+    pub(super) rows: Vec<[String; 4]>,
     convention: Option<Convention>,
     /// Angles that are numbers are in degrees.
     in_degrees: bool,
@@ -51,6 +52,9 @@ pub(super) fn tables_of(
         return printed;
     }
     let told = is_program.then(|| told_rows(bare)).flatten().and_then(|l| table(&l, reading));
+    if is_program && let Some(still) = still(bare, text).and_then(|l| table(&l, reading)) {
+        return vec![still];
+    }
     let (mut listed, unread): (Vec<PrintedTable>, Vec<_>) = told.into_iter().partition(|t| t.robot.is_ok());
     // A head that was taken for words leaves rows out, a length that slides a joint.
     let most = |tables: &[PrintedTable]| {
@@ -162,7 +166,7 @@ fn order(line: &str) -> Option<Vec<Column>> {
 }
 
 /// Rows below words that tell the order, and rows `theta4, d = 0, a = 0, alpha = -90`.
-fn told_rows(text: &str) -> Option<Listing> {
+pub(super) fn told_rows(text: &str) -> Option<Listing> {
     let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let mut head: Option<Vec<Column>> = None;
     let mut rows: Vec<[String; 4]> = vec![];
@@ -256,8 +260,12 @@ fn plain_row(line: &str, head: &[Column]) -> Option<[String; 4]> {
     let line = format!("{inner}{}{}", "]".repeat(open('[', ']')), ")".repeat(open('(', ')')));
     let line = line.as_str();
     let by = |c: char| line.split(c).map(str::trim).filter(|c| !c.is_empty()).collect::<Vec<&str>>();
+    let wide = line.replace('|', "  ");
+    // `1 |   0    a1   q1   d1`: a bar behind the number alone.
+    let is_barred = line.contains('|') && by('|').len() > 2;
+    let line = if is_barred { line } else { wide.as_str() };
     let cells = match () {
-        () if line.contains('|') => by('|'),
+        () if is_barred => by('|'),
         () if line.contains(',') => by(','),
         () => {
             let wide: Vec<&str> = line.split("  ").map(str::trim).filter(|c| !c.is_empty()).collect();
@@ -460,7 +468,7 @@ fn clean(value: &str) -> String {
 }
 
 /// Rows of four in a list, in an order that words above it or the function of a row tell.
-fn lists(text: &str) -> Option<Listing> {
+pub(super) fn lists(text: &str) -> Option<Listing> {
     let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let by_function = lines.iter().map(|l| l.1.trim()).find_map(|l| {
         let rest = l.strip_prefix("def ").or_else(|| l.strip_prefix("function "))?;

@@ -121,6 +121,37 @@ pub(super) fn letters_of_load(text: &str) -> Vec<char> {
         .collect()
 }
 
+/// The frame along whose axes a text has the components of its force, `{}^3F = (f_x, f_y, f_z)`; nothing where it has several.
+fn frame_of_load(text: &str) -> Option<usize> {
+    let mut found = None;
+    for (at, _) in text.match_indices('^') {
+        let behind = text[at + 1..].strip_prefix('{').unwrap_or(&text[at + 1..]);
+        let Some(frame) = behind.chars().next().and_then(|c| c.to_digit(10)) else { continue };
+        let behind = behind[1..].trim_start_matches(['}', ' ']);
+        let letter = LOOKS.iter().find_map(|l| behind.strip_prefix(l)).unwrap_or(behind);
+        let rest = letter.trim_start_matches(['{', ' ']).strip_prefix(['F', 'f']);
+        // A power stands behind what is multiplied: `a^2 F`.
+        let is_left = text[..at].trim_end_matches(' ').ends_with("{}") || !is_factor(&text[..at]);
+        let is_name = rest.is_some_and(|r| !r.starts_with(|c: char| c.is_alphanumeric()));
+        if is_left && is_name {
+            match found {
+                Some(other) if other != frame => return None,
+                _ => found = Some(frame),
+            }
+        }
+    }
+    // Frame 0 may be the base.
+    found.map(|k| k as usize).filter(|k| *k > 0)
+}
+
+/// Commands that change the looks of a letter.
+const LOOKS: [&str; 5] = ["\\mathbf", "\\boldsymbol", "\\vec", "\\bm", "\\mathrm"];
+
+/// True for a text that ends with something that may have a power.
+fn is_factor(text: &str) -> bool {
+    text.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '}'))
+}
+
 /// True if a torque is said to be something and a letter: `τ_2 = … + M`.
 fn adds_to_torque(text: &str, letters: &[&str], letter: &str) -> bool {
     let is_torque = |name: &str| {
@@ -156,7 +187,7 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
         return;
     }
     let mut load = [Expr::int(0); 6];
-    for (first, forces) in [(0, ["F", "f"]), (3, ["M", "m"])] {
+    for (first, forces) in [(0, &["F", "f"][..]), (3, &["M", "m", "N"])] {
         for (r, axis) in AXES.iter().enumerate() {
             // `My` is a word, too.
             let is_marked = |f: &str| {
@@ -205,8 +236,9 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
     if load.iter().all(|e| e.is_zero()) {
         return;
     }
-    if habits.load_in_hand {
-        let turn = subject.pose().rotation;
+    let told = frame_of_load(text).and_then(|k| subject.placed(k));
+    let in_hand = || Some(subject.pose()).filter(|_| habits.load_in_hand);
+    if let Some(turn) = told.or_else(in_hand).map(|x| x.rotation) {
         let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);
         load = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
     }
@@ -224,6 +256,23 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
             if kind == JointKind::Prismatic && is_mentioned(text, &name) {
                 add(&name, torque, torque);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::frame_of_load;
+
+    #[test]
+    fn frames_of_forces() {
+        for (text, frame) in [
+            ("with ${}^3F=[f_x\\; f_y]^T$, then $\\tau={}^3J^T\\,{}^3F$", Some(3)),
+            ("$^{2}\\mathbf{f}$ and $a^3 F$", Some(2)),
+            ("{}^3F and {}^0F", None),
+            ("J^T F and m^2 f_x", None),
+        ] {
+            assert_eq!(frame_of_load(text), frame, "{text}");
         }
     }
 }

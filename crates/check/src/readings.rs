@@ -411,14 +411,14 @@ fn family(name: &str) -> String {
 /// Random points and configurations for each robot.
 struct Trials {
     points: Points,
-    by_subject: Vec<[Option<Trial>; 3]>,
+    by_subject: Vec<[Option<Trial>; 4]>,
 }
 
 impl Trials {
     fn new(plan: &Plan) -> Self {
         Trials {
             points: Points::new(23),
-            by_subject: plan.subjects.iter().map(|_| [None, None, None]).collect(),
+            by_subject: plan.subjects.iter().map(|_| [None, None, None, None]).collect(),
         }
     }
 

@@ -1,7 +1,9 @@
 //! Ways of writing that are turned into those that are read, byte for byte: each place stays where it is.
 
+use super::components;
 use super::displayed;
 use super::macros;
+use super::signs;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -17,7 +19,7 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);
     }
-    let of_prose: [fn(&str) -> Option<String>; 17] = [
+    let of_prose: [fn(&str) -> Option<String>; 19] = [
         macros::written_out,
         macros::values_in_tables,
         without_french_blanks,
@@ -28,13 +30,15 @@ pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
         apart_by_blanks,
         rates_by_primes,
         alternatives_by_primes,
-        words_as_signs,
-        commas_in_calls,
-        names_behind,
+        signs::words_as_signs,
+        signs::commas_in_calls,
+        signs::names_behind,
         conjunctions,
         columns_by_words,
         torques_by_words,
         displayed::bracketed,
+        components::with_frames,
+        signs::values_of_dictionaries,
     ];
     if let Some(now) = script_without_head(&text).filter(|_| is_program) {
         text = Cow::Owned(now);
@@ -498,87 +502,6 @@ fn alternatives_by_primes(text: &str) -> Option<String> {
         }
         bytes[at..at + prime.len()].fill(b' ');
         is_any = true;
-    }
-    if is_any { String::from_utf8(bytes).ok() } else { None }
-}
-
-/// A text with the words that other languages have for a root, and with `dx/dt`, as formulas are written, byte for byte; nothing
-/// for other texts.
-fn words_as_signs(text: &str) -> Option<String> {
-    const WORDS: [(&str, &str); 9] = [
-        ("racine(", "sqrt  ("),
-        ("radice(", "sqrt  ("),
-        ("wortel(", "sqrt  ("),
-        ("raiz(", "sqrt("),
-        ("Wurzel(", "sqrt  ("),
-        ("wurzel(", "sqrt  ("),
-        ("dx/dt", "xdot "),
-        ("dy/dt", "ydot "),
-        ("dz/dt", "zdot "),
-    ];
-    if !WORDS.iter().any(|w| text.contains(w.0)) {
-        return None;
-    }
-    let is_part = |c: char| c.is_alphanumeric();
-    let mut bytes = text.as_bytes().to_vec();
-    for (word, now) in WORDS {
-        for (at, _) in text.match_indices(word) {
-            if !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
-                || word.ends_with('(')
-            {
-                bytes[at..at + word.len()].copy_from_slice(now.as_bytes());
-            }
-        }
-    }
-    String::from_utf8(bytes).ok()
-}
-
-/// A text with commas for the semicolons between the arguments of `atan2(y; x)`, byte for byte; nothing for other texts.
-fn commas_in_calls(text: &str) -> Option<String> {
-    const LONGEST: usize = 400;
-    let mut bytes = text.as_bytes().to_vec();
-    let mut is_any = false;
-    let mut until = 0;
-    for (at, name) in ["tan2", "TAN2"].iter().flat_map(|n| text.match_indices(n)) {
-        let rest = &text[at + name.len()..];
-        let inside =
-            rest.trim_start_matches(|c: char| matches!(c, ' ' | '}') || c.is_ascii_alphabetic() || c == '\\');
-        let Some(arguments) = inside.strip_prefix('(').filter(|_| at >= until || at + LONGEST < until) else {
-            continue;
-        };
-        let start = text.len() - arguments.len();
-        let mut depth = 0_usize;
-        until = start + LONGEST;
-        for (i, c) in arguments.char_indices().take(LONGEST) {
-            match c {
-                '(' | '[' => depth += 1,
-                ')' | ']' if depth > 0 => depth -= 1,
-                ')' | ']' | '\n' => {
-                    until = start + i;
-                    break;
-                }
-                ';' if depth == 0 => {
-                    bytes[start + i] = b',';
-                    is_any = true;
-                }
-                _ => {}
-            }
-        }
-    }
-    if is_any { String::from_utf8(bytes).ok() } else { None }
-}
-
-/// A text with `= D` for `=: D`, byte for byte; nothing for other texts.
-fn names_behind(text: &str) -> Option<String> {
-    let mut bytes = text.as_bytes().to_vec();
-    let mut is_any = false;
-    for (at, _) in text.match_indices("=:") {
-        let rest = text[at + 2..].trim_start_matches([' ', '~']);
-        let is_name = rest.starts_with(|c: char| c.is_alphabetic() || c == '\\');
-        if is_name && !text[..at].ends_with([':', '=']) {
-            bytes[at + 1] = b' ';
-            is_any = true;
-        }
     }
     if is_any { String::from_utf8(bytes).ok() } else { None }
 }

@@ -260,6 +260,11 @@ impl Subject {
         Transform::from_rotation_translation(Rotation::from_rows(rows), position)
     }
 
+    /// A frame in the base.
+    pub fn placed(&self, frame: usize) -> Option<Transform<Expr>> {
+        Some(self.robot.base * self.transform(Some(0), Some(frame))?)
+    }
+
     /// The origin of a frame in the base.
     pub fn origin(&self, frame: usize) -> Vector<Expr> {
         let x = self.transform(Some(0), Some(frame)).unwrap_or_else(Transform::identity);

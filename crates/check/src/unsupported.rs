@@ -4,12 +4,14 @@
 //! it. Where there is neither, the table, or what is given, may be meant otherwise.
 
 use super::blamed::used;
+use super::custom::plain;
 use super::facts::{About, Unproved};
-use super::outcome::{Claim, Finding, Standing};
+use super::outcome::{Claim, Entry, Finding, Standing};
 use super::plan::{Plan, Walked};
 use super::unjudged::mentions;
 use super::walk::{Spoken, speaks_of_singularity};
 use denavit_symbolic::Expr;
+use denavit_symbolic::vocabulary::plain_name;
 
 /// A matrix with so many wrong entries is off as a whole.
 const MANY_ENTRIES: usize = 3;
@@ -39,6 +41,7 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
             }
         }
     }
+    open_loads(text, claims);
     let helped: Vec<usize> = (0..walked.assertions.len())
         .filter(|&k| has_helper(text, walked, k))
         .map(|k| walked.assertions[k].span.start)
@@ -60,6 +63,34 @@ pub(super) fn withdraw(text: &str, plan: &Plan, walked: &Walked, claims: &mut [C
                 let wrong = c.entries.iter().filter(|e| e.finding.standing() == Standing::Wrong).count();
                 wrong >= MANY_ENTRIES && c.instead.is_none()
             });
+        }
+    }
+}
+
+/// Leaves torques undecided beside one with a name that is not known: the load that they are for may have more components.
+fn open_loads(text: &str, claims: &mut [Claim]) {
+    let is_torque = |c: &Claim| {
+        let name = plain_name(&plain(&c.name));
+        let stem = name.trim_end_matches(|x: char| x.is_ascii_digit());
+        c.about == About::Entry && matches!(stem, "τ" | "Γ" | "Gamma" | "tau") && stem.len() < name.len()
+    };
+    let is_open = |c: &Claim| {
+        let unknown = |e: &Entry| match &e.finding {
+            Finding::Unreadable(errors) => errors.iter().any(|e| {
+                let name = plain(text.get(e.span.clone()).unwrap_or_default());
+                name.chars().count() == 2 && name.ends_with(['x', 'y', 'z'])
+            }),
+            _ => false,
+        };
+        is_torque(c) && c.entries.iter().any(unknown)
+    };
+    let open: Vec<usize> = claims.iter().filter(|c| is_open(c)).map(|c| c.robot).collect();
+    for claim in claims.iter_mut().filter(|c| is_torque(c) && open.contains(&c.robot)) {
+        for entry in &mut claim.entries {
+            if !matches!(entry.finding, Finding::Unreadable(_)) {
+                entry.finding = Finding::Undecided { why: Unproved::OpenLoad };
+                entry.identities.clear();
+            }
         }
     }
 }

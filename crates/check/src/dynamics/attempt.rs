@@ -4,11 +4,12 @@ use super::bodies::bodies;
 use super::letters::{Letters, letters, maps};
 use super::measures::{Measures, measures};
 use super::model::{ALONG, COUPLED, Coordinates, Model, Numbers, Rotor, moving_rows, numbers};
+use super::points::jacobians;
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
 use super::told::{Told, told};
 use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
-use super::words::{Role, names, role, words};
+use super::words::{Role, length_of, names, role, words};
 use crate::facts::{Motion, Spoken};
 use crate::subject::Subject;
 use denavit::description::JointKind;
@@ -109,7 +110,9 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
         return None;
     }
     let sources = all.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
-    let mentioned: BTreeSet<String> = sources.flat_map(words).collect();
+    let mut mentioned: BTreeSet<String> = sources.flat_map(words).collect();
+    let jacobians = jacobians(text, all);
+    mentioned.retain(|w| !jacobians.contains(w));
     let symbols = Rc::new(Symbols::new(n));
     let has_rotor = mentioned.iter().any(|w| matches!(role(w, n), Some(Role::Rotor(_))));
     let generic = symbols.bodies.iter().map(|b| -> Numbers {
@@ -125,7 +128,12 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
     let lengths = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
         let named = |k: usize| format!("{letter}{}", k + 1);
         let is_new = |w: String| mentioned.contains(&w) && own.lookup(&w).is_none_or(|e| e.is_zero());
-        (0..n).any(|k| is_new(named(k)))
+        // Beside the table's own letter another is no second one for the same length.
+        let is_beside = |k: usize| {
+            let own = length_of(subject, &rows, k).and_then(Expr::as_symbol);
+            own.is_some_and(|s| mentioned.contains(&*s.name()) && is_new(named(k)))
+        };
+        (0..n).any(|k| is_new(named(k))) && !(0..n).any(is_beside)
     });
     let lengths: Vec<Option<char>> = std::iter::once(None).chain(lengths.map(Some)).collect();
     let (maps, is_cut) = match d.has_masses() {
@@ -159,8 +167,13 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
             let letters = &way.letters;
             let mut mentioned = mentioned.clone();
             mentioned.extend(way.measures.keys().cloned());
-            let mut names = names(subject, (&model.state, motion), &rows, &mentioned, way.length, letters);
+            let mut names =
+                names(subject, (&model.state, motion), &rows, &mentioned, way.length, letters, &told.lengths);
             names.is_measured = !way.measures.is_empty();
+            if told.is_massless {
+                let lone = names.roles.values_mut().filter(|r| **r == Role::Mass(None));
+                lone.for_each(|r| *r = Role::Payload);
+            }
             let roles = names.roles.clone();
             let read = statements(text, all, names, &model.state);
             let made = attempted(subject, &rows, &voter, coordinates, read, &roles, &told, &way.measures);

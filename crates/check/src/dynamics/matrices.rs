@@ -1,5 +1,6 @@
 //! Matrices and vectors of dynamics entry by entry, and sums of products of matrices term by term.
 
+use super::points::Kind as OfPoint;
 use super::quantity::{Content, Quantity, is_coriolis, is_inertia, of_scalar, of_vector};
 use super::statements::{Piece, Reader, Row, formula_span, lone_name};
 use crate::lexis::read;
@@ -64,8 +65,12 @@ impl Reader<'_> {
             if self.read.pieces.len() == before && !errors.is_empty() {
                 errors.truncate(5);
                 self.read.unread.push((at, errors));
+                return;
             }
-            return;
+            // `J_{c2}` may be an inertia.
+            if self.read.pieces.len() > before || point.kind != OfPoint::Jacobian {
+                return;
+            }
         }
         for (i, side) in statement.sides.iter().enumerate() {
             if let Some(span) = formula_span(side) {

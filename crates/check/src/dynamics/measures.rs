@@ -10,6 +10,8 @@ pub(super) type Measures = BTreeMap<String, Expr>;
 
 /// No more signs of equality are looked at.
 const MAX_LOOKS: usize = 2_000;
+/// No more names are given one number.
+const MOST_CHAINED: usize = 4;
 /// No name or number with its unit is longer.
 const LONGEST: usize = 24;
 
@@ -17,29 +19,52 @@ const LONGEST: usize = 24;
 pub(super) fn measures(text: &str) -> Measures {
     let mut found: BTreeMap<String, Option<Expr>> = BTreeMap::new();
     for (at, _) in text.match_indices('=').take(MAX_LOOKS) {
-        let Some(word) = name_before(&text[..at]) else { continue };
-        let Some(role) = role_of(&word, 9, &Letters::new()) else { continue };
-        let Some(value) = value_behind(&text[at + 1..], role) else { continue };
-        let known = found.entry(word).or_insert(Some(value));
-        if *known != Some(value) {
-            *known = None;
+        // `l_1 = l_2 = 0.5`
+        let Some(words) = names_before(&text[..at]) else { continue };
+        for word in words {
+            let Some(role) = role_of(&word, 9, &Letters::new()) else { continue };
+            let Some(value) = value_behind(&text[at + 1..], role) else { continue };
+            let known = found.entry(word).or_insert(Some(value));
+            if *known != Some(value) {
+                *known = None;
+            }
         }
     }
     found.into_iter().filter_map(|(w, v)| Some((w, v?))).collect()
 }
 
-/// The name that ends a text.
-fn name_before(text: &str) -> Option<String> {
+/// The names of masses, lengths and the like that end a text, several with signs of equality between; nothing where another name is among
+/// them, `V = m`.
+fn names_before(text: &str) -> Option<Vec<String>> {
+    let mut found = vec![];
+    let mut before = text;
+    while found.len() < MOST_CHAINED {
+        let (word, rest) = name_before(before)?;
+        role_of(&word, 9, &Letters::new())?;
+        found.push(word);
+        match rest.strip_suffix('=') {
+            Some(other) => before = other,
+            None => return Some(found),
+        }
+    }
+    None
+}
+
+/// The name that ends a text, and what stands before it.
+fn name_before(text: &str) -> Option<(String, &str)> {
     let text = text.trim_end_matches([' ', '$', '&', '~']);
     let is_name = |c: &char| c.is_alphanumeric() || matches!(c, '_' | '{' | '}' | '\\');
     let length: usize = text.chars().rev().take_while(is_name).take(LONGEST).map(char::len_utf8).sum();
     let name = &text[text.len() - length..];
     // The last of `2 m_1` or `l/m_1` is none.
-    let before = text[..text.len() - length].trim_end_matches([' ', '$', '(']).chars().next_back();
-    if name.starts_with(|c: char| c.is_ascii_digit()) || before.is_some_and(|c| "+-*/^·=<>−".contains(c)) {
+    let rest = text[..text.len() - length].trim_end_matches([' ', '$', '(']);
+    // Words in bold letters: `**Numbers.** $m_1 = …$`.
+    let rest = rest.strip_suffix("**").unwrap_or(rest);
+    let before = rest.chars().next_back();
+    if name.starts_with(|c: char| c.is_ascii_digit()) || before.is_some_and(|c| "+-*/^·<>−".contains(c)) {
         return None;
     }
-    words(name).into_iter().max_by_key(|w| w.chars().count())
+    Some((words(name).into_iter().max_by_key(|w| w.chars().count())?, rest))
 }
 
 /// A decimal number with a unit of the kind that a role has.
@@ -62,7 +87,8 @@ fn value_behind(text: &str, role: Role) -> Option<Expr> {
     if behind.starts_with(',') && behind[1..].starts_with(|c: char| c.is_ascii_digit()) {
         return None;
     }
-    let scale = unit(behind.trim_start(), role)?;
+    // `0.5 (m)`
+    let scale = unit(behind.trim_start().trim_start_matches('(').trim_start(), role)?;
     Some(Expr::from(value) * Expr::from(scale))
 }
 

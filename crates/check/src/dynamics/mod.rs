@@ -13,6 +13,7 @@ mod author;
 mod bodies;
 mod centres;
 mod described;
+mod in_numbers;
 mod letters;
 mod matrices;
 mod measures;
@@ -221,6 +222,7 @@ fn of_robot(text: &str, all: &[Statement], plan: &Plan, number: usize, known: &[
         });
     }
     let mut spoken = spoken_torques::judged(text, subject, &attempt, number);
+    spoken.extend(in_numbers::judged(text, all, subject, &attempt, number));
     let touch = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
     spoken.retain(|c| !known.iter().any(|other| touch(&c.span, &other.span)));
     judged.unjudged.retain(|u| !spoken.iter().any(|c| touch(&c.span, &u.span)));

@@ -5,14 +5,15 @@ use super::letters::Letters;
 use super::matrices::{Cells, Factor, times};
 use super::model::State;
 use super::quantity::Quantity;
-use super::statements::{Piece, Reader, lone_name};
+use super::statements::{Piece, Reader, formula_span, lone_name};
 use super::words::{Role, without_looks, words};
 use crate::jacobians::derivative;
 use crate::note::Unread;
-use denavit_reading::document::Side;
+use denavit_reading::document::{Part, Side, Statement};
 use denavit_symbolic::parse::Syntax;
 use denavit_symbolic::vocabulary::{Vocabulary, plain_name};
 use denavit_symbolic::{Expr, Symbol};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// A point that a link carries.
@@ -26,6 +27,9 @@ pub(super) enum Place {
 
 /// The most points at which a link may end.
 pub(super) const ENDS: usize = 2;
+
+/// No arm has more bodies with names of one digit.
+const MOST: usize = 9;
 
 /// What a name says of a point.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -92,9 +96,10 @@ pub(super) fn named(text: &str, span: &Range<usize>, n: usize, letters: &Letters
         ("ω", false) => (Kind::Turning, sub.clone()),
         ("p" | "P" | "r", false) => (Kind::Position, sub.clone()),
         ("p" | "P" | "r", true) => (Kind::Velocity, sub.clone()),
-        // `J_{v_{c2}}`, `J_P^{(l_2)}`
+        // `J_{v_{c2}}`, `J_P^{(l_2)}`, `J_{C2}`
         ("J", false) => {
-            let rest = sub.strip_prefix(['v', 'P', 'p', 'L'])?;
+            let of_centre = || Some(sub.as_str()).filter(|s| s.starts_with(['c', 'C', 'g', 'G']));
+            let rest = sub.strip_prefix(['v', 'P', 'p', 'L']).or_else(of_centre)?;
             (Kind::Jacobian, if rest.is_empty() { sup.clone() } else { rest.to_string() })
         }
         _ => return None,
@@ -212,6 +217,11 @@ impl Reader<'_> {
         }
     }
 
+    /// True for formulas with joints in them.
+    fn turns(&self, values: &[Vec<Expr>]) -> bool {
+        values.iter().flatten().any(|e| e.symbols().iter().any(|s| self.state.q.contains(s)))
+    }
+
     /// A side with a vector or a matrix of a point.
     pub(super) fn point_matrix(
         &mut self,
@@ -257,8 +267,10 @@ impl Reader<'_> {
             let c = self.content(*e);
             (rates | c.rates, other | c.accelerations | c.gravity)
         });
+        // `J_{C2}` may be an inertia, which does not depend on the joints.
+        let is_tensor = named.kind == Kind::Jacobian && !self.turns(&values);
         let moves = matches!(named.kind, Kind::Velocity | Kind::Speed);
-        if !fits || content.1 || content.0 != moves {
+        if is_tensor || !fits || content.1 || content.0 != moves {
             return None;
         }
         let is_printed = scale.is_one() && factors.len() == 1;
@@ -291,6 +303,25 @@ impl Reader<'_> {
         }
         Some(())
     }
+}
+
+/// The names of matrices that are the Jacobians of points, `J_{C2}`, and no inertias.
+pub(super) fn jacobians(text: &str, all: &[Statement]) -> BTreeSet<String> {
+    let is_wide = |s: &Statement| {
+        let grids = s.sides.iter().flat_map(|s| &s.parts).filter_map(|p| match p {
+            Part::Matrix(grid) => Some(grid),
+            Part::Text(_) => None,
+        });
+        grids.into_iter().any(|g| {
+            let columns = g.rows.first().map_or(0, Vec::len);
+            columns > 1 && (g.rows.len(), columns) != (3, 3)
+        })
+    };
+    let of = |s: &Statement| {
+        let span = formula_span(s.sides.first()?)?;
+        named(text, &span, MOST, &Letters::new()).filter(|p| p.kind == Kind::Jacobian)
+    };
+    all.iter().filter(|s| is_wide(s)).filter_map(of).map(|p| p.word).collect()
 }
 
 /// What names stand for in formulas where `value` is printed of one of a point: a coordinate has a rate, too.
@@ -339,6 +370,7 @@ mod tests {
             ("V_2^2", None),
             ("v_B^2", Some((Kind::Square, None, false, "vB"))),
             (r"J_{v_{c2}}", Some((Kind::Jacobian, Some(1), true, "Jvc2"))),
+            ("J_{C2}", Some((Kind::Jacobian, Some(1), true, "JC2"))),
             (r"J_P^{(\ell_2)}", Some((Kind::Jacobian, Some(1), true, "JP"))),
             (r"\omega_2", Some((Kind::Turning, Some(1), false, "ω2"))),
             ("x_e", None),

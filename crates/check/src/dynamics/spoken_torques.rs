@@ -80,8 +80,8 @@ struct Given {
 
 /// The state of the joints: of each of q, q̇, q̈ the values that are given.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct State {
-    values: [BTreeMap<usize, f64>; 3],
+pub(super) struct State {
+    pub values: [BTreeMap<usize, f64>; 3],
 }
 
 /// Judges the torques that sentences give.
@@ -125,7 +125,7 @@ impl State {
 }
 
 /// The arm with numbers for its symbols.
-struct Reading {
+pub(super) struct Reading {
     torques: Vec<Expr>,
     values: BTreeMap<Symbol, f64>,
     state: [Vec<Symbol>; 3],
@@ -134,7 +134,7 @@ struct Reading {
 }
 
 impl Reading {
-    fn new(text: &str, subject: &Subject, attempt: &Attempt) -> Option<Self> {
+    pub fn new(text: &str, subject: &Subject, attempt: &Attempt) -> Option<Self> {
         let model = attempt.model(subject, 0)?;
         let torques: Vec<Expr> =
             (0..attempt.rows.len()).map(|j| model.value(Quantity::Torque(j))).collect::<Option<_>>()?;
@@ -158,8 +158,18 @@ impl Reading {
         Some(Reading { torques, values, state, is_open })
     }
 
-    /// A joint's torque in a state; rates and accelerations that are not given are 0.
+    /// True if nothing can be called wrong.
+    pub fn is_open(&self) -> bool {
+        self.is_open
+    }
+
+    /// A joint's torque in a state.
     fn torque(&self, joint: usize, at: &State) -> Option<f64> {
+        self.number(*self.torques.get(joint)?, at)
+    }
+
+    /// What a formula is in a state; rates and accelerations that are not given are 0.
+    pub fn number(&self, e: Expr, at: &State) -> Option<f64> {
         let value = |s: Symbol| {
             for (symbols, values) in self.state.iter().zip(&at.values) {
                 if let Some(k) = symbols.iter().position(|x| *x == s) {
@@ -168,7 +178,7 @@ impl Reading {
             }
             self.values.get(&s).copied()
         };
-        self.torques.get(joint)?.eval(value).ok().filter(|x| x.is_finite())
+        e.eval(value).ok().filter(|x| x.is_finite())
     }
 }
 
@@ -227,7 +237,7 @@ fn claim(
 }
 
 /// The sentences of a text: a point within a number ends none.
-fn sentences(text: &str) -> Vec<Range<usize>> {
+pub(super) fn sentences(text: &str) -> Vec<Range<usize>> {
     let mut found = vec![];
     let mut start = 0;
     let bytes = text.as_bytes();
@@ -249,7 +259,7 @@ fn sentences(text: &str) -> Vec<Range<usize>> {
 }
 
 /// Marks of formulas that say nothing.
-fn skip(text: &str) -> &str {
+pub(super) fn skip(text: &str) -> &str {
     let mut text = text;
     loop {
         let before = text;
@@ -264,7 +274,7 @@ fn skip(text: &str) -> &str {
 }
 
 /// A number at the beginning of a text, and its length.
-fn number(text: &str) -> Option<(f64, usize)> {
+pub(super) fn number(text: &str) -> Option<(f64, usize)> {
     let sign = text.chars().next().filter(|c| matches!(c, '-' | '−' | '–' | '+'));
     let start = sign.map_or(0, char::len_utf8);
     let rest = text[start..].trim_start();
@@ -385,7 +395,7 @@ fn named(before: &str, n: usize) -> Option<Option<usize>> {
 }
 
 /// The state of the joints that a sentence says.
-fn state(sentence: &str, n: usize, kinds: &[JointKind]) -> State {
+pub(super) fn state(sentence: &str, n: usize, kinds: &[JointKind]) -> State {
     let mut found = State::default();
     for (at, _) in sentence.match_indices('=') {
         let before = sentence[..at].trim_end_matches([' ', '$', '&', '}']);

@@ -24,6 +24,10 @@ pub(super) struct Told {
     pub links: Described,
     /// Whether there are words about rotors or motors.
     pub has_rotors: bool,
+    /// Whether the links are said to have no mass: a mass without a number is that of what the hand carries.
+    pub is_massless: bool,
+    /// Letters without a number for places of centres of mass: `centre of mass b behind the tip`.
+    pub lengths: Vec<char>,
 }
 
 impl Told {
@@ -52,7 +56,73 @@ pub(super) fn told(text: &str) -> Told {
     let gravity = gravity(&lower);
     let has_rotors = ["rotor", "motor", "moteur", "läufer", "antrieb"].iter().any(|w| lower.contains(w));
     let is_level = gravity.is_none() && is_level(&lower);
-    Told { gravity, is_level, inertia: inertia(&lower), links: described(&lower), has_rotors }
+    let is_massless = is_massless(&lower);
+    Told {
+        gravity,
+        is_level,
+        inertia: inertia(&lower),
+        links: described(&lower),
+        has_rotors,
+        is_massless,
+        lengths: lengths(text),
+    }
+}
+
+/// The letters that sentences about centres of mass have, but for those that lengths have anyway.
+fn lengths(text: &str) -> Vec<char> {
+    const LETTERS: [char; 9] = ['b', 'c', 'f', 'h', 'k', 'p', 's', 'w', 'e'];
+    // Words of a letter, in the languages that are read.
+    let is_word = |c: char, before: &str| c == 'e' && !before.ends_with(['$', '`', '*']);
+    let lower = text.to_ascii_lowercase();
+    let mut found = vec![];
+    for sentence in sentences(&lower, &CENTRES) {
+        let start = sentence.as_ptr() as usize - lower.as_ptr() as usize;
+        let own = &text[start..start + sentence.len()];
+        for (at, c) in own.char_indices().filter(|(_, c)| LETTERS.contains(c)) {
+            let is_part = |c: char| c.is_alphanumeric() || matches!(c, '_' | '\\' | '{' | '^' | '\'');
+            let (before, behind) = (&own[..at], &own[at + 1..]);
+            let is_lone = !before.ends_with(is_part) && !behind.starts_with(is_part);
+            if is_lone && !is_word(c, before) && !found.contains(&c) {
+                found.push(c);
+            }
+        }
+    }
+    found
+}
+
+/// Whether a sentence says that the links have no mass.
+fn is_massless(lower: &str) -> bool {
+    const WITHOUT: [&str; 22] = [
+        "massless",
+        "without mass",
+        "no mass",
+        "negligible mass",
+        "mass is neglected",
+        "masses are neglected",
+        "mass of the links is neglected",
+        "masses of the links are neglected",
+        "masses of the links are negligible",
+        "neglect the mass",
+        "masselos",
+        "massenlos",
+        "masse vernachlässig",
+        "massen vernachlässig",
+        "sans masse",
+        "masse négligeable",
+        "masses négligeables",
+        "sin masa",
+        "masa despreciable",
+        "sem massa",
+        "massa trascurabile",
+        "privi di massa",
+    ];
+    const LINKS: [&str; 14] = [
+        "link", "arm", "rod", "bar", "glied", "stäbe", "segment", "bras", "corps", "eslab", "elo", "bracci",
+        "membr", "barra",
+    ];
+    const NOT: [&str; 5] = ["not massless", "motor", "cable", "spring", "rope"];
+    let says = |s: &str| LINKS.iter().any(|w| s.contains(w)) && !NOT.iter().any(|w| s.contains(w));
+    sentences(lower, &WITHOUT).any(says)
 }
 
 /// No sentence is longer that says something.

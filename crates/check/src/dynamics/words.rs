@@ -252,7 +252,7 @@ pub(super) struct Names {
 
 /// Names for an arm: `state` are the symbols of joints, rates and accelerations, `motion` names of a program for these, `rows` the rows that move. With `lengths` names
 /// `l_1, l_2` of one letter that the table does not have are the lengths in its rows; `letters` are those
-/// of bodies.
+/// of bodies, `places` those without a number that words have for where a centre of mass is.
 pub(super) fn names(
     subject: &Subject,
     (state, motion): (&super::model::State, &Motion),
@@ -260,6 +260,7 @@ pub(super) fn names(
     mentioned: &BTreeSet<String>,
     lengths: Option<char>,
     letters: &Letters,
+    places: &[char],
 ) -> Names {
     let mut vocabulary = subject.vocabulary();
     let own = vocabulary.clone();
@@ -349,7 +350,12 @@ pub(super) fn names(
     let has_others = has_ten && mentioned.iter().any(is_mass);
     let is_other = |word: &str| has_others && word.starts_with('m');
     for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w) && !is_motion(w)) {
-        let Some(role) = role_of(word, n, letters) else { continue };
+        // A letter of which words say that it is where a centre of mass is.
+        let is_place = || word.chars().count() == 1 && word.chars().all(|c| places.contains(&c));
+        let Some(role) = role_of(word, n, letters).or_else(|| is_place().then_some(Role::Length(None)))
+        else {
+            continue;
+        };
         if let Role::Gear(of) = role
             && !has_rotor(of)
         {
@@ -385,7 +391,7 @@ pub(super) fn names(
 }
 
 /// The length of a link, by the row that holds it.
-fn length_of(subject: &Subject, rows: &[usize], k: usize) -> Option<Expr> {
+pub(super) fn length_of(subject: &Subject, rows: &[usize], k: usize) -> Option<Expr> {
     let d = &subject.description;
     let row = d.rows.get(rows[k] + usize::from(!d.convention.begins_with_joint()))?;
     let is_slide = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);

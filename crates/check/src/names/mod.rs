@@ -391,12 +391,24 @@ impl Reader<'_> {
         let inner: String = inner.into_iter().collect();
         let plain: String = inner.chars().filter(|c| c.is_alphanumeric() || *c == ',').collect();
         let is_place = plain.split(',').all(|p| p.parse::<usize>().is_ok()) && plain.contains(',');
-        let plain = ["overline", "bar", "mathbf", "vec", "theta", "boldsymbol", "underline"]
-            .iter()
-            .fold(plain, |p, word| p.replace(word, ""));
+        // `\Theta` is all joints, as `\theta` and `q` are.
+        let plain = [
+            "overline",
+            "bar",
+            "mathbf",
+            "bm",
+            "vartheta",
+            "vec",
+            "theta",
+            "Theta",
+            "boldsymbol",
+            "underline",
+        ]
+        .iter()
+        .fold(plain, |p, word| p.replace(word, ""));
         let is_joint = plain.split(',').all(|p| {
             let letters = p.trim_end_matches(|c: char| c.is_ascii_digit());
-            matches!(letters, "q" | "θ" | "" | "qi" | "qj" | "qn")
+            matches!(letters, "q" | "Q" | "θ" | "ϑ" | "Θ" | "" | "qi" | "qj" | "qn")
         });
         inner.len() <= 40 && (is_place || is_joint)
     }

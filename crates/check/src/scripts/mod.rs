@@ -35,7 +35,7 @@ pub(super) struct Scripts {
 /// Functions by which inverse formulas are told.
 const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
 /// Modules whose names stand before functions.
-pub(super) const MODULES: [&str; 7] = ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp."];
+pub(super) const MODULES: [&str; 8] = ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp.", "std::"];
 /// Functions that formulas have.
 const KNOWN: [&str; 30] = [
     "sin", "cos", "tan", "sqrt", "atan2", "arctan2", "acos", "asin", "atan", "arccos", "arcsin", "arctan",

@@ -31,7 +31,13 @@ impl Walk<'_> {
             .map_or(inner, |_| "J");
         // `det = …`: that of the matrix that stands before, if it is a Jacobian.
         let inner = if inner.is_empty() && self.is_last_a_jacobian() { "J" } else { inner };
-        let name = self.lexis.lone_name(inner, &(0..inner.len()))?;
+        // `\det J(\Theta)`
+        let whole = bare.trim();
+        let with_arguments =
+            self.lexis.lone_name(whole, &(0..whole.len())).filter(|n| !n.arguments.is_empty());
+        let by_letters = || self.lexis.lone_name(inner, &(0..inner.len()));
+        let name = with_arguments.or_else(by_letters)?;
+        let name = Name { arguments: vec![], ..name };
         let told = crate::jacobians::told_of_jacobian(&name)?;
         // The blocks of an arm with a wrist: of the position, and of the orientation.
         if name.base == "J" && self.lexis.defined(&name).is_none() {

@@ -15,6 +15,7 @@ mod matrices;
 mod points;
 mod rate_letters;
 mod rates;
+mod recorded;
 mod scalars;
 mod singular;
 mod speeds;

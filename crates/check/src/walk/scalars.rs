@@ -12,7 +12,7 @@ use denavit::geometry::orientation::OrientationSet;
 use denavit_reading::document::Statement;
 use denavit_symbolic::parse::{Function, Syntax, SyntaxKind};
 use denavit_symbolic::vocabulary::plain_name;
-use denavit_symbolic::{Angle, Expr, Node};
+use denavit_symbolic::{Angle, Expr};
 use std::ops::Range;
 
 impl Walk<'_> {
@@ -180,6 +180,7 @@ impl Walk<'_> {
             return true;
         }
         self.record_sine(&spans, &read);
+        self.record_posed(&spans, &read);
         let told = claim.and_then(|words| self.told_entry(words)).or_else(|| self.of_motion(&read));
         // A name that the document defines here.
         let is_definition = told.is_none()
@@ -372,22 +373,6 @@ impl Walk<'_> {
             && number.bytes().all(|b| b.is_ascii_digit())
             && before.ends_with(' ')
             && before.trim_end_matches(' ').ends_with(char::is_alphabetic)
-    }
-
-    /// Keeps what is printed for the sine or cosine of a joint: `c_3 = D`, `s_3 = ±√(1 − D²)`.
-    fn record_sine(&mut self, spans: &[Range<usize>], read: &[Scalar]) {
-        let ([_, right], [Scalar::Formula(_, left), _]) = (spans, read) else { return };
-        let sine = left.value();
-        if !matches!(sine.node(), Node::Sin(_) | Node::Cos(_)) {
-            return;
-        }
-        let Ok(syntax) = self.lexis.inverse_formula(self.text, right) else { return };
-        let known: Vec<(Expr, Expr)> = self.sines.iter().filter_map(|s| Some((s.0, *s.1.first()?))).collect();
-        let values: Vec<Expr> = syntax.variants().iter().map(|s| replaced(s, &known, 0)).collect();
-        self.sines.retain(|s| s.0 != sine);
-        if !values.iter().any(|v| v.symbols().iter().any(|s| sine.symbols().contains(s))) {
-            self.sines.push((sine, values));
-        }
     }
 
     /// True for a name that the robot gives its meaning.

@@ -515,6 +515,17 @@ impl Walk<'_> {
         let names: Vec<&str> = names.iter().map(|n| self.source(n.0)).collect();
         let with_unit = self.with_shared_unit(&names, value, behind);
         let value = with_unit.as_deref().unwrap_or(value);
+        // `v_z` behind `v_x`, `v_y` that were computed is the third of them, also where one joint alone has it.
+        let velocity = |name: &str| {
+            let plain = crate::custom::plain(name);
+            ["vx", "vy", "vz", "Vx", "Vy", "Vz"].contains(&&*plain).then_some(plain)
+        };
+        let last = self.assertions.last().and_then(|a| velocity(&a.name));
+        let is_next =
+            |name: &str| velocity(name).zip(last.as_ref()).is_some_and(|(own, before)| own != *before);
+        if matches!(names[..], [name] if is_next(name)) {
+            return false;
+        }
         is_constant && names.iter().all(|name| self.assign(name, value))
     }
 }

@@ -111,20 +111,20 @@ fn part(number: usize, least: usize) {
 
 #[test]
 fn labelled_first() {
-    part(0, 279);
+    part(0, 404);
 }
 
 #[test]
 fn labelled_second() {
-    part(1, 297);
+    part(1, 451);
 }
 
 #[test]
 fn labelled_third() {
-    part(2, 312);
+    part(2, 452);
 }
 
 #[test]
 fn labelled_fourth() {
-    part(3, 323);
+    part(3, 417);
 }

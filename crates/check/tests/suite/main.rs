@@ -14,6 +14,7 @@ mod marking;
 mod meant_otherwise;
 mod mutations;
 mod named;
+mod notation;
 mod ordinary;
 mod programs;
 mod readings;

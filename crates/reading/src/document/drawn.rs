@@ -68,9 +68,17 @@ fn pieces(text: &str, line: &Range<usize>) -> Vec<Piece> {
 pub(super) fn begins(text: &str, first: &Range<usize>, next: &Range<usize>) -> bool {
     let (a, b) = (pieces(text, first), pieces(text, next));
     match (a.first(), b.first()) {
-        (Some(x), Some(y)) => x.column == y.column && a.len() == b.len() && !ruled(text, next),
+        (Some(x), Some(y)) => {
+            let is_apart = relates(text, first, &a) && relates(text, next, &b);
+            x.column == y.column && a.len() == b.len() && !ruled(text, next) && !is_apart
+        }
         _ => false,
     }
+}
+
+/// True for a line with a relation beside its rows: of two such each has a matrix of its own, `p = [a, b]`, `o = [c, d]`.
+fn relates(text: &str, line: &Range<usize>, pieces: &[Piece]) -> bool {
+    between(text, line, pieces).iter().any(|(_, span)| cut(text, span).contains('='))
 }
 
 /// `|---|---|`
@@ -87,11 +95,13 @@ pub(super) fn read(reader: &mut Reader, at: usize, limit: usize, manner: Manner)
     while end < limit && rows.len() < MOST_LINES {
         let (span, next) = line(text, end, limit);
         let found = pieces(text, &span);
-        let fits = match (rows.first(), found.first()) {
-            (None, Some(_)) => true,
-            (Some((_, first)), Some(piece)) => first.first().is_some_and(|f| f.column == piece.column),
-            _ => false,
-        };
+        let is_next = relates(text, &span, &found) && rows.iter().any(|(span, p)| relates(text, span, p));
+        let fits = !is_next
+            && match (rows.first(), found.first()) {
+                (None, Some(_)) => true,
+                (Some((_, first)), Some(piece)) => first.first().is_some_and(|f| f.column == piece.column),
+                _ => false,
+            };
         if !fits {
             break;
         }

@@ -234,6 +234,7 @@ fn conditions_and_doubts() {
         Unproved::UnknownColumn,
         Unproved::OtherJoints,
         Unproved::OtherNames,
+        Unproved::OpenLoad,
         Unproved::Values(Undecided::UnknownSymbol(Symbol::new("zeta"))),
         Unproved::Values(Undecided::Shape),
         Unproved::Values(Undecided::Circular),

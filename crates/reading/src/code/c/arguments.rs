@@ -33,7 +33,9 @@ impl Writer {
         let mut start = from;
         let mut is_first = true;
         while start < to {
-            let stop = (start..to).find(|&i| self.op(i) == ",").unwrap_or(to);
+            // The commas of `std::array<double, 3>` are its own.
+            let first = self.behind_type(start).filter(|k| *k < to).unwrap_or(start);
+            let stop = (first..to).find(|&i| self.op(i) == ",").unwrap_or(to);
             let words: Vec<usize> = (start..stop).filter(|&i| self.name(i).is_some()).collect();
             let is_const = words.iter().any(|&i| self.name(i) == Some("const"));
             if let Some(&k) = words.last().filter(|&&i| self.name(i) != Some("void")) {
@@ -41,7 +43,9 @@ impl Writer {
                 let is_pointer = (start..k).any(|i| matches!(self.op(i), "*" | "&")) || self.op(k + 1) == "[";
                 let is_structure = self.fields.contains_key(&name);
                 let is_written = !is_const && is_pointer && self.is_written(&name, body, end);
-                if is_structure && is_pointer {
+                if self.is_read_by_fields(k, body, end) {
+                    self.read.insert(name);
+                } else if is_structure && is_pointer {
                     let fields = self.fields.get(&name).cloned().unwrap_or_default();
                     let names: Vec<String> = fields.iter().map(|f| self.field(&name, f)).collect();
                     self.outputs.extend(names);
@@ -61,6 +65,25 @@ impl Writer {
             start = stop + 1;
         }
         sizes
+    }
+
+    /// True for an argument of a type with a name of its own of which a function reads fields, and nothing else.
+    fn is_read_by_fields(&self, k: usize, body: usize, end: usize) -> bool {
+        let type_at = k - usize::from(matches!(self.op(k - 1), "*" | "&"));
+        let is_own = type_at > 0 && self.name(type_at - 1).is_some_and(|w| !super::TYPES.contains(&w));
+        let Some(name) = self.name(k) else { return false };
+        let mut uses = (body..end).filter(|&i| self.name(i) == Some(name) && !self.is_field(i)).peekable();
+        let is_read = |i: usize| {
+            matches!(self.op(i + 1), "." | "->")
+                && self.name(i + 2).is_some_and(|f| !matches!(f, "x" | "y" | "z"))
+                && !matches!(self.op(i + 3), "=" | "(" | "[" | "." | "->")
+        };
+        is_own && uses.peek().is_some() && uses.all(is_read)
+    }
+
+    /// True for the name of a field, `d1` of `arm.d1`.
+    fn is_field(&self, i: usize) -> bool {
+        i > 0 && matches!(self.op(i - 1), "." | "->")
     }
 
     /// True if a function gives an argument, or entries of it, a value.

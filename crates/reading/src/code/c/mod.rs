@@ -3,6 +3,7 @@
 //! structure is a name.
 
 mod arguments;
+mod blocks;
 mod tokens;
 
 use super::Dialect;
@@ -71,12 +72,25 @@ struct Writer {
     /// Of the function that is written: what its arguments and structures are.
     outputs: Vec<String>,
     fields: BTreeMap<String, Vec<String>>,
+    /// Structures that it only reads: their fields are names.
+    read: BTreeSet<String>,
+    /// Where its body ends.
+    end: usize,
     depth: usize,
 }
 
 impl Writer {
     fn new(tokens: Vec<Token>) -> Self {
-        Writer { tokens, at: 0, out: vec![], outputs: vec![], fields: BTreeMap::new(), depth: 0 }
+        Writer {
+            tokens,
+            at: 0,
+            out: vec![],
+            outputs: vec![],
+            fields: BTreeMap::new(),
+            read: BTreeSet::new(),
+            end: 0,
+            depth: 0,
+        }
     }
 
     fn program(mut self) -> Vec<Token> {
@@ -136,11 +150,11 @@ impl Writer {
 
     /// `type name(parameters) {`, up to the end of its body.
     fn function(&mut self) -> bool {
-        let mut k = self.at;
+        let mut k = self.behind_type(self.at).unwrap_or(self.at);
         while self.name(k).is_some() && self.name(k + 1).is_some()
-            || self.name(k).is_some() && self.op(k + 1) == "*"
+            || self.name(k).is_some() && matches!(self.op(k + 1), "*" | "&")
         {
-            k += 1 + usize::from(self.op(k + 1) == "*");
+            k += 1 + usize::from(matches!(self.op(k + 1), "*" | "&"));
         }
         // `Arm::fk`
         while self.name(k).is_some() && self.op(k + 1) == "::" {
@@ -155,6 +169,7 @@ impl Writer {
         let end = self.behind(body);
         self.outputs.clear();
         self.fields = self.written(body, end);
+        self.end = end;
         self.out.push(Token { mark: Mark::Name("def".into()), ..self.tokens[self.at].clone() });
         self.out.push(Token { mark: Mark::Name(name), ..self.tokens[k].clone() });
         self.out.push(self.tokens[k + 1].clone());
@@ -187,8 +202,44 @@ impl Writer {
         self.put(Mark::Newline);
         self.put(Mark::Dedent);
         self.at = end;
+        self.end = 0;
         self.fields.clear();
+        self.read.clear();
         true
+    }
+
+    /// The place behind a type with parameters, `std::array<double, 3>`, perhaps a reference, before a name.
+    fn behind_type(&self, from: usize) -> Option<usize> {
+        let mut k = from;
+        while self.name(k) == Some("const") || self.name(k) == Some("static") {
+            k += 1;
+        }
+        while self.name(k).is_some() && self.op(k + 1) == "::" {
+            k += 2;
+        }
+        if self.name(k).is_none() || self.op(k + 1) != "<" {
+            return None;
+        }
+        let mut depth = 0_usize;
+        let mut i = k + 1;
+        loop {
+            match self.op(i) {
+                "<" => depth += 1,
+                ">" => depth = depth.saturating_sub(1),
+                ">>" => depth = depth.saturating_sub(2),
+                "," | "::" | "*" | "&" => {}
+                "" if i < self.tokens.len() => {}
+                _ => return None,
+            }
+            i += 1;
+            if depth == 0 {
+                break;
+            }
+        }
+        while matches!(self.op(i), "*" | "&") {
+            i += 1;
+        }
+        self.name(i).is_some().then_some(i)
     }
 
     /// `name = np.zeros((4, 4))`
@@ -245,6 +296,9 @@ impl Writer {
         // Types, and the casts and stars of what they declare.
         let is_return = self.name(self.at) == Some("return");
         let mut is_declared = false;
+        if let Some(k) = self.behind_type(self.at).filter(|_| !is_return) {
+            (self.at, is_declared) = (k, true);
+        }
         while !is_return
             && (self.name(self.at).is_some_and(|w| TYPES.contains(&w))
                 || self.name(self.at).is_some() && (self.name(self.at + 1).is_some()))
@@ -288,7 +342,14 @@ impl Writer {
                 && let Some(name) = self.name(self.at).map(str::to_string)
                 && matches!(self.op(self.at + 1), ";" | "," | "[")
             {
-                let size = if self.op(self.at + 1) == "[" { self.size(self.at, &name, 0, 0) } else { None };
+                let size = match self.op(self.at + 1) {
+                    "[" => self.size(self.at, &name, 0, 0),
+                    // `Mat3 J;` whose entries are set one by one.
+                    _ if self.is_written(&name, self.at, self.end) => {
+                        self.size(self.at, &name, self.at + 1, self.end)
+                    }
+                    _ => None,
+                };
                 let mut k = self.at + 1;
                 while self.op(k) == "[" {
                     k = self.behind(k);
@@ -407,7 +468,8 @@ impl Writer {
             return;
         }
         if let ("." | "->", Some(field)) = (self.op(self.at + 1), self.name(self.at + 2)) {
-            let name = if name == "this" { field.to_string() } else { self.field(&name, field) };
+            let is_own = name == "this" || self.read.contains(&name);
+            let name = if is_own { field.to_string() } else { self.field(&name, field) };
             let span = token.span.start..self.tokens[self.at + 2].span.end;
             self.out.push(Token { mark: Mark::Name(name), span, is_apart: token.is_apart });
             self.at += 3;
@@ -436,149 +498,5 @@ impl Writer {
         };
         self.out.push(Token { mark: Mark::Name(name.to_string()), ..token });
         self.at += 1;
-    }
-
-    /// `if (…) … else …`
-    fn branches(&mut self) {
-        self.word("if");
-        loop {
-            let close = self.behind(self.at + 1);
-            self.at += 1;
-            while self.at < close {
-                match self.op(self.at) {
-                    op @ ("&&" | "||" | "!") => {
-                        let word = [("&&", "and"), ("||", "or"), ("!", "not")];
-                        let word = word.iter().find(|w| w.0 == op).map_or("not", |w| w.1);
-                        self.word(word);
-                        self.at += 1;
-                    }
-                    _ => self.token(),
-                }
-            }
-            self.body();
-            if self.name(self.at) != Some("else") {
-                return;
-            }
-            self.at += 1;
-            if self.name(self.at) == Some("if") {
-                self.word("elif");
-                continue;
-            }
-            self.word("else");
-            self.body();
-            return;
-        }
-    }
-
-    /// `for (int i = 0; i < 4; i++) …`, as a loop over a range; false for any other loop.
-    fn counted_loop(&mut self) -> bool {
-        let close = self.behind(self.at + 1);
-        let mut k = self.at + 2;
-        while self.name(k).is_some_and(|w| TYPES.contains(&w)) {
-            k += 1;
-        }
-        let (Some(name), "=") = (self.name(k).map(str::to_string), self.op(k + 1)) else { return false };
-        let end_of = |from: usize| (from..close).find(|&i| self.op(i) == ";");
-        let Some(first) = end_of(k + 2) else { return false };
-        let Some(second) = end_of(first + 1) else { return false };
-        let is_name = |i: usize| self.name(i) == Some(&name);
-        let compares = matches!(self.op(first + 2), "<" | "<=") && is_name(first + 1);
-        let step = second + 1;
-        let counts = is_name(step) && self.op(step + 1) == "++" && step + 3 == close
-            || self.op(step) == "++" && is_name(step + 1) && step + 3 == close;
-        // Bounds that are numbers, so that the turns are known.
-        let is_number = |i: usize| matches!(self.tokens.get(i).map(|t| &t.mark), Some(Mark::Number(..)));
-        let has_numbers = (k + 2..first).chain(first + 3..second).all(is_number);
-        if !(compares && counts && has_numbers && first > k + 2 && second > first + 3) {
-            return false;
-        }
-        let is_closed = self.op(first + 2) == "<=";
-        self.word("for");
-        self.word(&name);
-        self.word("in");
-        self.word("range");
-        self.put(Mark::Op("("));
-        self.out.extend_from_slice(&self.tokens[k + 2..first]);
-        self.put(Mark::Op(","));
-        self.out.extend_from_slice(&self.tokens[first + 3..second]);
-        if is_closed {
-            self.put(Mark::Op("+"));
-            self.put(Mark::Number(Rational::from(1), true));
-        }
-        self.put(Mark::Op(")"));
-        self.at = close;
-        self.body();
-        true
-    }
-
-    fn body(&mut self) {
-        self.put(Mark::Op(":"));
-        self.put(Mark::Newline);
-        self.put(Mark::Indent);
-        self.word("pass");
-        self.put(Mark::Newline);
-        self.depth += 1;
-        if self.depth < 60 {
-            self.statement();
-        } else {
-            self.passed_over();
-        }
-        self.depth -= 1;
-        self.put(Mark::Dedent);
-    }
-
-    fn block(&mut self, end: usize) {
-        self.depth += 1;
-        while self.at + 1 < end && self.depth < 60 {
-            let before = self.at;
-            self.statement();
-            self.at = self.at.max(before + 1);
-        }
-        self.depth -= 1;
-        self.at = end;
-    }
-
-    /// Past a statement or a block that says nothing here.
-    fn passed_over(&mut self) {
-        while self.at < self.tokens.len() {
-            match self.op(self.at) {
-                ";" => {
-                    self.at += 1;
-                    return;
-                }
-                "{" => {
-                    self.at = self.behind(self.at);
-                    while self.name(self.at).is_some() && self.op(self.at + 1) == ";" {
-                        self.at += 1;
-                    }
-                    return;
-                }
-                "(" => self.at = self.behind(self.at),
-                _ => self.at += 1,
-            }
-        }
-    }
-
-    /// A loop: what it changes is not known afterwards.
-    fn refused(&mut self) {
-        let word = self.name(self.at).unwrap_or_default().to_string();
-        let bad = Mark::Bad(format!("`{word}` is not read"));
-        self.out.push(Token { mark: bad, ..self.tokens[self.at].clone() });
-        self.put(Mark::Newline);
-        let start = self.at;
-        self.passed_over();
-        let changed: BTreeSet<String> = (start..self.at)
-            .filter(|&i| self.op(i + 1) == "=" || self.op(i + 1) == "[")
-            .filter_map(|i| self.name(i).map(str::to_string))
-            .collect();
-        let end = self.at;
-        self.at = start;
-        for name in changed {
-            self.word(&name);
-            self.put(Mark::Op("="));
-            self.put(Mark::Bad("what a loop makes of it is not known".into()));
-            self.put(Mark::Newline);
-        }
-        self.at = end;
     }
 }

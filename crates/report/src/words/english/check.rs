@@ -265,6 +265,9 @@ impl Check for English {
             Unproved::UnknownColumn => "what the column holds is not known",
             Unproved::OtherJoints => "it has not the joints of the robot",
             Unproved::OtherNames => "it has lengths that are not known of the robot",
+            Unproved::OpenLoad => {
+                "a torque beside it has a name that is not known: the load may have more components"
+            }
             Unproved::Values(why) => return self.undecided(why),
         }
         .into()

@@ -288,6 +288,9 @@ impl Check for French {
             Unproved::UnknownColumn => "la colonne n’est pas connue",
             Unproved::OtherJoints => "il n’a pas les articulations du robot",
             Unproved::OtherNames => "il a des longueurs inconnues du robot",
+            Unproved::OpenLoad => {
+                "un couple voisin contient un nom inconnu : la charge peut avoir d’autres composantes"
+            }
             Unproved::Values(why) => return self.undecided(why),
         })
     }

@@ -286,6 +286,9 @@ impl Check for German {
             Unproved::UnknownColumn => "was in der Spalte steht, ist nicht bekannt",
             Unproved::OtherJoints => "sie hat nicht die Gelenke des Roboters",
             Unproved::OtherNames => "sie hat Längen, die der Roboter nicht kennt",
+            Unproved::OpenLoad => {
+                "ein Moment daneben enthält einen unbekannten Namen: Die Last kann weitere Komponenten haben"
+            }
             Unproved::Values(why) => return self.undecided(why),
         }
         .into()

@@ -288,6 +288,9 @@ impl Check for Spanish {
             Unproved::UnknownColumn => "no se sabe qué contiene la columna",
             Unproved::OtherJoints => "no tiene las articulaciones del robot",
             Unproved::OtherNames => "tiene longitudes que no se conocen del robot",
+            Unproved::OpenLoad => {
+                "un par contiguo tiene un nombre que no se conoce: la carga puede tener más componentes"
+            }
             Unproved::Values(why) => return self.undecided(why),
         }
         .into()
