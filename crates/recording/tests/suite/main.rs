@@ -1,0 +1,4 @@
+//! Recordings held against robots.
+
+mod made;
+mod study;
