@@ -20,6 +20,8 @@ pub struct Arm {
     pub name: String,
     /// The names of its joint variables.
     pub names: Vec<String>,
+    /// What its file calls the joints.
+    pub joint_names: Vec<String>,
     /// Which joints turn.
     pub turns: Vec<bool>,
     /// Their limits; half a turn either way where a turning joint has none.
@@ -60,9 +62,11 @@ impl Arm {
             .map(|a| Moving { turns: a.kind == JointKind::Revolute, terms: a.value.terms.clone() })
             .collect();
         let limits = space.limits.iter().zip(&space.is_angle);
+        let names: Vec<String> = description.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         Ok(Arm {
             name: name.into(),
-            names: description.variables().iter().map(|v| v.symbol.name().to_string()).collect(),
+            joint_names: description.joint_names().unwrap_or_else(|| names.clone()),
+            names,
             limits: limits.map(|(l, &a)| l.unwrap_or(if a { [-PI, PI] } else { SLIDE })).collect(),
             turns: space.is_angle,
             moving,
@@ -129,11 +133,17 @@ impl Arm {
         Some([before, behind])
     }
 
-    /// The lengths that are no frame's: between the first axis and the last, with the coordinate that has them.
+    /// The lengths that are no frame's: between the first axis and the last, with the coordinate that has them. One along the
+    /// first axis is a shift of the base, one along the last of the tool.
     pub fn lengths(&self) -> Vec<(usize, usize)> {
         let last = self.constants.len() - 1;
         let of = |k: usize| (0..3).map(move |axis| (k, axis));
-        (1..last).flat_map(of).filter(|&(k, axis)| self.constants[k].translation[axis].abs() > 0.02).collect()
+        let is_own = |&(k, axis): &(usize, usize)| {
+            let along_first = k == 1 && axis == 2;
+            let along_last = k + 1 == last && self.constants[k].rotation.z()[axis].abs() > 1.0 - 1e-9;
+            self.constants[k].translation[axis].abs() > 0.02 && !along_first && !along_last
+        };
+        (1..last).flat_map(of).filter(is_own).collect()
     }
 
     /// True for an arm whose joints are of the same kinds, in the same order.

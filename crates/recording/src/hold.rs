@@ -6,14 +6,13 @@ use crate::data::{Data, Direction, spread};
 use crate::decode::Format;
 use crate::explain;
 use crate::finding::{Finding, Fitted, Length, Off, Rival, Slip, Stuck, Unlike, Unseen};
-use crate::fit::{Extra, Problem, rho, sizes};
+use crate::fit::{Extra, Problem, sizes};
 use crate::hypothesis::{Hypothesis, Move, Unit};
 use crate::lag;
 use crate::needed;
 use crate::recipe::Recipe;
 use crate::recording::{HoldError, Recording, Roles};
 use crate::search::{Reading, Search};
-use crate::turns::log;
 use denavit::geometry::Transform;
 use std::rc::Rc;
 
@@ -427,7 +426,6 @@ fn stuck(search: &Search, best: &Reading) -> Vec<Stuck> {
 
 /// What no motion in the recording tells.
 fn unseen(search: &Search, best: &Reading, strokes: &[f64]) -> Vec<Unseen> {
-    let data = search.data;
     let mut all = vec![];
     for joint in 0..best.arm.joints() {
         let column = best.map.pick[joint];
@@ -453,14 +451,12 @@ fn unseen(search: &Search, best: &Reading, strokes: &[f64]) -> Vec<Unseen> {
             all.push(Unseen::Sign(joint, moved, (2.0 * 2_f64.sqrt() * deviation).max(2.0 * moved)));
         }
     }
-    let _ = data;
     all
 }
 
 /// What is said where no joint moves.
 fn nothing_moves(arm: &Arm, recording: &Recording, roles: &Roles, columns: &Prepared, data: &Data) -> Held {
     let recipe = Recipe::plain(recording, roles, arm);
-    let _ = (rho as fn(&[[f64; 6]]) -> f64, log as fn(&denavit::geometry::Rotation<f64>) -> denavit::geometry::Vector<f64>);
     Held {
         recipe,
         findings: vec![],

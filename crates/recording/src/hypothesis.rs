@@ -60,14 +60,6 @@ pub struct Map {
 }
 
 impl Move {
-    /// The joints that it is about.
-    pub fn joints(self) -> [usize; 2] {
-        match self {
-            Move::Swap(i, j) => [i, j],
-            Move::Flip(i) | Move::Quarter(i, _) | Move::Couple(i, _) | Move::Degrees(i) | Move::Gain(i, _) => [i, i],
-        }
-    }
-
     fn cost(self) -> f64 {
         match self {
             Move::Flip(_) => 2.1,

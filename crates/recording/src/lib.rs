@@ -19,6 +19,7 @@ mod needed;
 mod recipe;
 mod recipe_text;
 mod recording;
+mod roles;
 mod search;
 mod turns;
 pub mod words;
@@ -30,4 +31,5 @@ pub use finding::{Finding, Fitted, Length, Off, Rival, Slip, Stuck, Unlike, Unse
 pub use hold::{Held, HoldOptions, hold};
 pub use recipe::{ColumnUnit, JointColumn, Recipe, Rows, table_of};
 pub use recipe_text::RecipeError;
+pub use roles::{RolesError, Told};
 pub use recording::{Column, HoldError, Recording, Roles, Said};

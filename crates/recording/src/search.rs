@@ -6,7 +6,7 @@
 use crate::arm::{Arm, half_turn};
 use crate::data::{Data, Direction};
 use crate::fit::{Extra, Fit, Problem, Scale, rho};
-use crate::frames::{Frames, closed};
+use crate::frames::closed;
 use crate::hypothesis::{Hypothesis, Map, Move, Unit};
 use crate::turns::{angle, between};
 use denavit::geometry::{Axis, Rotation, Transform, Vector};

@@ -1,6 +1,6 @@
 //! Recordings that are made: a path of an arm with noise, and slips put into its columns.
 
-use denavit::geometry::{Axis, Rotation, Transform, Vector};
+use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::random::Random;
 use denavit::{Description, catalogue};
 use denavit_recording::{Arm, Column, Form, Format, Recording, Roles};
@@ -150,11 +150,9 @@ pub fn make(name: &str, slips: &[&str], seed: u64, setting: &Setting) -> Made {
         }
     }
     if has("length") {
-        let last = mover.constants.len() - 1;
-        let all: Vec<(usize, usize)> = (1..last)
-            .flat_map(|k| (0..3).map(move |a| (k, a)))
-            .filter(|&(k, a)| mover.constants[k].translation[a].abs() > 0.03)
-            .collect();
+        // One along the first axis is the base, one along the last the tool.
+        let is_long = |&(k, a): &(usize, usize)| mover.constants[k].translation[a].abs() > 0.03;
+        let all: Vec<(usize, usize)> = mover.lengths().into_iter().filter(is_long).collect();
         let (k, a) = dice.one_of(&all);
         mover.constants[k].translation.0[a] += dice.one_of(&[-1.0, 1.0]) * dice.between(0.012, 0.03);
         truth.push(format!("length {k} {a}"));
@@ -368,5 +366,3 @@ fn assembled(columns: &[Vec<f64>], recorded: &[Transform<f64>], unit: f64, forma
     Recording { columns: all }
 }
 
-/// The axis of the mirror.
-pub const MIRRORED: Axis = Axis::Y;

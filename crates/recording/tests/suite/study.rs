@@ -71,7 +71,14 @@ fn canonical(names: &[String], joints: usize) -> Vec<String> {
 
 /// exact, same (the same function), tie (among the rivals), other (the residual is noise), lost (not understood), wrong.
 fn grade(made: &Made, held: &Held, joints: usize) -> (&'static str, Vec<String>) {
-    let slips: Vec<&Slip> = held.findings.iter().map(|f| &f.slip).collect();
+    // A jump is told by its column; the truth by its joint.
+    let joint = |c: usize| held.recipe.joints.iter().position(|j| j.column == format!("c{c}")).unwrap_or(c);
+    let by_joint = |s: &Slip| match *s {
+        Slip::Jump(c, r, n, turn) => Slip::Jump(joint(c), r, n, turn),
+        ref other => other.clone(),
+    };
+    let slips: Vec<Slip> = held.findings.iter().map(|f| by_joint(&f.slip)).collect();
+    let slips: Vec<&Slip> = slips.iter().collect();
     let format = held.recipe.format;
     let found = names(&slips, format.form, format.degrees);
     let truth = canonical(&made.truth, joints);
