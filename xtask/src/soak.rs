@@ -73,7 +73,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 5] = [
+    let soaks: [(&str, &[&str]); 6] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
@@ -82,6 +82,8 @@ fn suites() -> Result<()> {
         ("denavit-generate", &["ikfast::", "conformance::"]),
         // Documents that nobody should write; those that take minutes each are in no other test.
         ("denavit-check", &["hostile::", "--include-ignored"]),
+        // Thousands of recordings with slips, alone and in pairs, and without any.
+        ("denavit-recording", &[]),
     ];
     for (package, tests) in soaks {
         let mut cargo = command("cargo");

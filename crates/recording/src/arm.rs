@@ -62,7 +62,8 @@ impl Arm {
             .map(|a| Moving { turns: a.kind == JointKind::Revolute, terms: a.value.terms.clone() })
             .collect();
         let limits = space.limits.iter().zip(&space.is_angle);
-        let names: Vec<String> = description.variables().iter().map(|v| v.symbol.name().to_string()).collect();
+        let names: Vec<String> =
+            description.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         Ok(Arm {
             name: name.into(),
             joint_names: description.joint_names().unwrap_or_else(|| names.clone()),

@@ -56,8 +56,6 @@ pub struct Prepared {
     pub rotation_degrees: bool,
     /// Seconds from row to row, where there is a time.
     pub step: Option<f64>,
-    /// Seconds of one unit of the time.
-    pub time_unit: f64,
     /// Whether a row follows the one before it: in time, and in its episode.
     pub follows: Vec<bool>,
     /// Rows to search in.
@@ -74,6 +72,16 @@ pub struct Prepared {
     pub back: Vec<usize>,
     /// Rows before which time is missing.
     pub gaps: Vec<usize>,
+}
+
+/// Lagrange's cubic through rows −1, 0, 1, 2 at a place between 0 and 1: what each is multiplied with.
+pub fn cubic(f: f64) -> [f64; 4] {
+    [
+        -f * (f - 1.0) * (f - 2.0) / 6.0,
+        (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0,
+        -(f + 1.0) * f * (f - 2.0) / 2.0,
+        (f + 1.0) * f * (f - 1.0) / 6.0,
+    ]
 }
 
 /// The middle of numbers; 0 of none.
@@ -108,14 +116,16 @@ pub fn prepare(recording: &Recording, roles: &Roles) -> Result<Prepared, HoldErr
 
     let is_whole = |r: usize| {
         let number = |c: &[f64]| c[r].is_finite();
-        joints.iter().all(|c| number(c)) && rotation.iter().all(|c| number(c)) && position[r].0.iter().all(|x| x.is_finite())
+        joints.iter().all(|c| number(c))
+            && rotation.iter().all(|c| number(c))
+            && position[r].0.iter().all(|x| x.is_finite())
     };
     let mut mask: Vec<bool> = (0..rows).map(is_whole).collect();
     let missing: Vec<usize> = (0..rows).filter(|&r| !mask[r]).collect();
     if rows - missing.len() < LEAST {
         return Err(HoldError::Rows { whole: rows - missing.len(), all: rows });
     }
-    let (step, time_unit, follows, back, gaps) = times(recording, roles, &mask);
+    let (step, follows, back, gaps) = times(recording, roles, &mask);
     let (mut jumps, mut runs) = (vec![], vec![]);
     for (k, c) in joints.iter_mut().enumerate() {
         jumps.extend(unwrapped(c, k, &mask));
@@ -134,7 +144,6 @@ pub fn prepare(recording: &Recording, roles: &Roles) -> Result<Prepared, HoldErr
         rotation,
         rotation_degrees: roles.rotation.iter().any(|c| degrees(c)),
         step,
-        time_unit,
         follows,
         good: (0..rows).filter(|&r| mask[r]).collect(),
         missing,
@@ -146,22 +155,22 @@ pub fn prepare(recording: &Recording, roles: &Roles) -> Result<Prepared, HoldErr
     })
 }
 
-type Times = (Option<f64>, f64, Vec<bool>, Vec<usize>, Vec<usize>);
+type Times = (Option<f64>, Vec<bool>, Vec<usize>, Vec<usize>);
 
-/// The step of time, its unit, which rows follow the one before, where time goes back, where some is missing.
+/// The step of time in seconds, which rows follow the one before, where time goes back, where some is missing.
 fn times(recording: &Recording, roles: &Roles, mask: &[bool]) -> Times {
     let rows = mask.len();
     let episode = |r: usize| roles.episode.map(|c| recording.columns[c].values[r].to_bits());
     let mut follows: Vec<bool> =
         (0..rows).map(|r| r > 0 && mask[r] && mask[r - 1] && episode(r) == episode(r - 1)).collect();
     let Some(time) = roles.time.map(|c| &recording.columns[c]) else {
-        return (None, 1.0, follows, vec![], vec![]);
+        return (None, follows, vec![], vec![]);
     };
     let difference = |r: usize| time.values[r] - time.values[r - 1];
     let steps: Vec<f64> = (1..rows).filter(|&r| follows[r]).map(difference).filter(|d| *d > 0.0).collect();
     let usual = median(steps);
     if usual <= 0.0 {
-        return (None, 1.0, follows, vec![], vec![]);
+        return (None, follows, vec![], vec![]);
     }
     // Recordings have 1 to 10,000 rows a second.
     let unit = time.said.map_or(
@@ -186,7 +195,7 @@ fn times(recording: &Recording, roles: &Roles, mask: &[bool]) -> Times {
         }
         follows[r] = d > 0.0 && d <= 5.0 * usual;
     }
-    (Some(usual * unit), unit, follows, back, gaps)
+    (Some(usual * unit), follows, back, gaps)
 }
 
 /// Undoes jumps by whole turns.
@@ -245,7 +254,12 @@ fn spikes(position: &[Vector<f64>], mask: &[bool]) -> Vec<usize> {
         (1..position.len()).filter(|&r| mask[r] && mask[r - 1]).map(|r| far(r - 1, r)).collect();
     let most = 8.0 * median(steps) + 1e-9;
     let is_spike = |&r: &usize| {
-        mask[r - 1] && mask[r] && mask[r + 1] && far(r - 1, r) > most && far(r, r + 1) > most && far(r - 1, r + 1) < most
+        mask[r - 1]
+            && mask[r]
+            && mask[r + 1]
+            && far(r - 1, r) > most
+            && far(r, r + 1) > most
+            && far(r - 1, r + 1) < most
     };
     (1..position.len().saturating_sub(1)).filter(is_spike).collect()
 }

@@ -1,7 +1,7 @@
 //! What the search looks at: a few hundred rows, drawn once, decoded in every format.
 
 use crate::arm::Arm;
-use crate::columns::{Prepared, noise, places};
+use crate::columns::{Prepared, cubic, median, noise, places};
 use crate::decode::{Format, candidates};
 use crate::recording::HoldError;
 use crate::turns::{between, log};
@@ -17,6 +17,11 @@ const HELD: usize = 100;
 const AXES: usize = 80;
 /// Rows this near to an end of the recording have no neighbours for a lag.
 const MARGIN: usize = 6;
+
+/// Third differences above this part of a column's deviation are those of motion; below this angle between rows, radians, noise
+/// may be as large.
+const SPARSE: f64 = 0.35;
+const LITTLE: f64 = 0.1;
 
 /// A recorded pose.
 pub type Recorded = (Rotation<f64>, Vector<f64>);
@@ -78,6 +83,8 @@ pub struct Data<'a> {
     pub noise_position: f64,
     /// The noise of each joint's column, in its own unit.
     pub noise_columns: Vec<f64>,
+    /// Whether rows are too far apart for the noise to be seen: third differences are as large as the motion.
+    pub is_sparse: bool,
 }
 
 impl<'a> Data<'a> {
@@ -103,7 +110,9 @@ impl<'a> Data<'a> {
         }
         let inner = |r: &usize| {
             let from = r.saturating_sub(MARGIN) + 1;
-            r + MARGIN < columns.follows.len() && *r >= MARGIN && (from..=r + MARGIN).all(|k| columns.follows[k])
+            r + MARGIN < columns.follows.len()
+                && *r >= MARGIN
+                && (from..=r + MARGIN).all(|k| columns.follows[k])
         };
         let readable: Vec<usize> = columns.good.iter().copied().filter(is_read).collect();
         let inside: Vec<usize> = readable.iter().copied().filter(inner).collect();
@@ -113,8 +122,9 @@ impl<'a> Data<'a> {
         }
         let mut random = Random(1);
         let any = |n: usize, random: &mut Random| ((random.unit() * n as f64) as usize).min(n - 1);
-        let pairs: Vec<(usize, usize)> =
-            (0..PAIRS).map(|_| (good[any(good.len(), &mut random)], good[any(good.len(), &mut random)])).collect();
+        let pairs: Vec<(usize, usize)> = (0..PAIRS)
+            .map(|_| (good[any(good.len(), &mut random)], good[any(good.len(), &mut random)]))
+            .collect();
         let mut mixed = good.clone();
         for k in (1..mixed.len()).rev() {
             mixed.swap(k, any(k + 1, &mut random));
@@ -133,8 +143,38 @@ impl<'a> Data<'a> {
             .collect();
         let of = |k: usize| noise(&columns.follows, |r| columns.position[r][k]);
         let noise_position = (0..3).map(of).fold(0.0, f64::max);
-        let noise_columns = columns.joints.iter().map(|c| noise(&columns.follows, |r| c[r])).collect();
-        Ok(Data { columns, arm, pairs, fit: mixed, held, axes, decoded, noise_position, noise_columns })
+        let noise_columns: Vec<f64> =
+            columns.joints.iter().map(|c| noise(&columns.follows, |r| c[r])).collect();
+        let spreads: Vec<f64> = columns.joints.iter().map(|c| spread_of(&good, |r| c[r])).collect();
+        let parts: Vec<f64> = noise_columns.iter().zip(&spreads).map(|(n, s)| n / s.max(1e-12)).collect();
+        let is_sparse = median(parts) > SPARSE || places(&columns.follows).is_empty();
+        let mut data = Data {
+            columns,
+            arm,
+            pairs,
+            fit: mixed,
+            held,
+            axes,
+            decoded,
+            noise_position,
+            noise_columns,
+            is_sparse,
+        };
+        // What moves less than noise may be noise.
+        let turned: f64 = median(data.decoded.iter().map(|d| median(d.angles.clone())).collect());
+        data.is_sparse &= turned > LITTLE;
+        Ok(data)
+    }
+
+    /// Takes the noise for known: radians, metres.
+    pub fn suppose(&mut self, turn: f64, shift: f64) {
+        let rows = &self.columns.good;
+        let far = median(rows.iter().map(|&r| self.columns.position[r].norm()).collect());
+        self.noise_position = if far > 10.0 { 1e3 * shift } else { shift };
+        self.decoded.iter_mut().for_each(|d| d.noise = turn);
+        for (noise, c) in self.noise_columns.iter_mut().zip(&self.columns.joints) {
+            *noise = noise.min(1e-3 * spread_of(rows, |r| c[r]));
+        }
     }
 
     /// How many columns may be joints.
@@ -157,13 +197,7 @@ impl<'a> Data<'a> {
         let f = x - at;
         if at >= 1.0 && joined((at as usize - 1).min(r), (at as usize + 2).max(r)) {
             let i = at as usize;
-            // Lagrange's cubic through rows i−1 … i+2.
-            let w = [
-                -f * (f - 1.0) * (f - 2.0) / 6.0,
-                (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0,
-                -(f + 1.0) * f * (f - 2.0) / 2.0,
-                (f + 1.0) * f * (f - 1.0) / 6.0,
-            ];
+            let w = cubic(f);
             out.extend(joints.iter().map(|c| (0..4).map(|k| w[k] * c[i + k - 1]).sum::<f64>()));
             return;
         }
@@ -193,6 +227,13 @@ impl<'a> Data<'a> {
     }
 }
 
+/// The standard deviation of a column.
+fn spread_of(rows: &[usize], of: impl Fn(usize) -> f64) -> f64 {
+    let n = rows.len().max(1) as f64;
+    let mean = rows.iter().map(|&r| of(r)).sum::<f64>() / n;
+    (rows.iter().map(|&r| (of(r) - mean).powi(2)).sum::<f64>() / n).sqrt()
+}
+
 /// At most so many of the rows, evenly spread.
 pub fn spread(rows: &[usize], most: usize) -> Vec<usize> {
     rows.iter().copied().step_by(rows.len().div_ceil(most).max(1)).collect()
@@ -207,5 +248,5 @@ fn noise_of_turns(columns: &Prepared, turn: &dyn Fn(usize) -> Rotation<f64>) -> 
         let third = x[3] - x[2].scale(3.0) + x[1].scale(3.0) - x[0];
         all.extend(third.0.map(f64::abs));
     }
-    crate::columns::median(all) / (0.6745 * 20_f64.sqrt())
+    median(all) / (0.6745 * 20_f64.sqrt())
 }

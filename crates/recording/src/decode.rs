@@ -74,7 +74,11 @@ impl Format {
             Form::RotationVector => Some(exp(Vector([angle(0), angle(1), angle(2)]))),
             Form::Euler(set, is_moving) => {
                 let [i, j, k] = EulerSet::ALL[usize::from(set)].axes();
-                let [a, b, c] = [Rotation::about(i, angle(0)), Rotation::about(j, angle(1)), Rotation::about(k, angle(2))];
+                let [a, b, c] = [
+                    Rotation::about(i, angle(0)),
+                    Rotation::about(j, angle(1)),
+                    Rotation::about(k, angle(2)),
+                ];
                 Some(if is_moving { a * b * c } else { c * b * a })
             }
             Form::QuaternionXyzw => quaternion(x),

@@ -2,8 +2,11 @@
 
 use crate::arm::{self, Arm};
 use crate::fit::Extra;
+use crate::hypothesis::Move;
 use crate::search::{Reading, Search};
 use std::collections::BTreeSet;
+use std::f64::consts::FRAC_PI_2;
+use std::rc::Rc;
 
 /// Up to this a reading explains the recording.
 pub const GOOD: f64 = 1.05;
@@ -119,12 +122,59 @@ fn with_numbers<'a>(search: &Search<'a>, found: &[Reading<'a>], best: Reading<'a
             winner = now;
         }
     }
+    winner = exact(search, fewer(search, winner));
     if !winner.fit.extras.is_empty() && (winner.has_base || winner.has_tool) {
         for free in [[false, false], [false, true], [true, false]] {
             let z = search.finish(&winner, &winner.fit.extras.clone(), free, 8);
             if z.score < winner.score {
                 winner = z;
             }
+        }
+    }
+    winner
+}
+
+/// Without a number that does not pay for itself once the other is there.
+fn fewer<'a>(search: &Search<'a>, mut winner: Reading<'a>) -> Reading<'a> {
+    while winner.fit.extras.len() > 1 {
+        let without = |k: usize| {
+            let mut extras = winner.fit.extras.clone();
+            extras.remove(k);
+            search.finish(&winner, &extras, winner.free, 6)
+        };
+        let best = (0..winner.fit.extras.len()).map(without).min_by(|a, b| a.score.total_cmp(&b.score));
+        match best {
+            Some(z) if z.score < winner.score => winner = z,
+            _ => break,
+        }
+    }
+    winner
+}
+
+/// A fitted number that is nearly an exact slip, as that slip: a gain of −1 is a sign.
+fn exact<'a>(search: &Search<'a>, winner: Reading<'a>) -> Reading<'a> {
+    let near = |x: f64, y: f64| (x - y).abs() < 0.03;
+    for (k, &(extra, value)) in winner.fit.extras.iter().enumerate() {
+        let quarters = (value / FRAC_PI_2).round();
+        let one = match extra {
+            Extra::Gain(i) if near(value, -2.0) => Move::Flip(i),
+            Extra::Gain(i) if near(value, 1.0) => Move::Gain(i, -2),
+            Extra::Gain(i) if near(value, -0.5) => Move::Gain(i, 2),
+            Extra::Couple(i) if near(value.abs(), 1.0) => Move::Couple(i, if value > 0.0 { 1 } else { -1 }),
+            Extra::Zero(i) if winner.arm.turns[i] && quarters != 0.0 && near(value, quarters * FRAC_PI_2) => {
+                Move::Quarter(i, [0, 1, 2, -1][(quarters as i64).rem_euclid(4) as usize])
+            }
+            _ => continue,
+        };
+        let mut start = winner.clone();
+        let hypothesis = winner.hypothesis.plus(one);
+        start.map = Rc::new(hypothesis.map(search.data.width(), winner.arm));
+        start.hypothesis = Rc::new(hypothesis);
+        let mut extras = winner.fit.extras.clone();
+        extras.remove(k);
+        let z = search.finish(&start, &extras, winner.free, 8);
+        if z.score < winner.score {
+            return exact(search, z);
         }
     }
     winner

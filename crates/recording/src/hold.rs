@@ -18,6 +18,8 @@ use std::rc::Rc;
 
 /// Above this the residual is not understood.
 const UNDERSTOOD: f64 = 2.5;
+/// Neither is one with more than this left over, whatever the noise.
+const MOST_LEFT: Off = Off { turn: 0.35, shift: 0.35 };
 /// Readings this near are not told apart, nats.
 const TIED: f64 = 3.5;
 /// A run is stuck if its rows are so many times farther off than others.
@@ -51,8 +53,8 @@ pub struct Held {
     pub remarks: Vec<Finding>,
     /// How far the hand is off once all of it is undone.
     pub left_over: Off,
-    /// What of it is the noise of the columns.
-    pub noise: Off,
+    /// What of it is the noise of the columns, where that is seen.
+    pub noise: Option<Off>,
     /// The residual in units of what is expected.
     pub rho: f64,
     /// Whether the recording is understood.
@@ -71,21 +73,60 @@ pub struct Held {
 ///
 /// # Errors
 /// If the columns cannot be what they are taken for.
-pub fn hold(arm: &Arm, recording: &Recording, roles: &Roles, options: &HoldOptions) -> Result<Held, HoldError> {
+pub fn hold(
+    arm: &Arm,
+    recording: &Recording,
+    roles: &Roles,
+    options: &HoldOptions,
+) -> Result<Held, HoldError> {
     fits(arm, recording, roles)?;
     let columns = prepare(recording, roles)?;
     let data = Data::new(&columns, arm, options.format)?;
     let strokes: Vec<f64> = (0..data.width()).map(|k| stroke(&columns, k)).collect();
     if strokes.iter().all(|s| *s == 0.0) {
-        return Ok(nothing_moves(arm, recording, roles, &columns, &data));
+        return Ok(nothing_moves(arm, recording, roles, &columns));
     }
-    let mut search = Search::new(&data, 0.0);
+    if data.is_sparse {
+        // The noise is not seen: the least with which the recording is understood.
+        let mut last = None;
+        for (turn, shift) in SUPPOSED {
+            let mut data = Data::new(&columns, arm, options.format)?;
+            data.suppose(turn, shift);
+            let held = searched(arm, recording, roles, options, &data, &strokes);
+            let is_understood = held.is_understood;
+            last = Some(held);
+            if is_understood {
+                break;
+            }
+        }
+        if let Some(mut held) = last {
+            held.noise = None;
+            return Ok(held);
+        }
+    }
+    Ok(searched(arm, recording, roles, options, &data, &strokes))
+}
+
+/// Noise that is supposed where it is not seen: radians, metres.
+const SUPPOSED: [(f64, f64); 3] = [(1e-3, 0.3e-3), (8e-3, 3e-3), (3e-2, 1e-2)];
+
+/// The search, and what is said of it.
+fn searched(
+    arm: &Arm,
+    recording: &Recording,
+    roles: &Roles,
+    options: &HoldOptions,
+    data: &Data,
+    strokes: &[f64],
+) -> Held {
+    let mut search = Search::new(data, 0.0);
     let mut found = search.readings();
     let mut best = explain::best(&search, &found, options.others && found[0].rho <= UNDERSTOOD);
-    let behind = if best.rho > explain::GOOD { lag::estimate(&data, search.bases()) } else { 0.0 };
+    let behind =
+        if best.rho > explain::GOOD && !data.is_sparse { lag::estimate(data, search.bases()) } else { 0.0 };
     let mut shifted = None;
     if behind.abs() > 0.3 {
-        let mut later = Search::new(&data, behind);
+        let mut later = Search::new(data, behind);
         let readings = later.readings();
         if let Some(first) = readings.first() {
             // The lag becomes a number to be fitted.
@@ -112,13 +153,33 @@ pub fn hold(arm: &Arm, recording: &Recording, roles: &Roles, options: &HoldOptio
             best = other;
         }
     }
-    Ok(said(arm, recording, roles, &search, &found, best, &strokes))
+    let best = settled(&search, best);
+    said(arm, recording, roles, &search, &found, best, strokes)
+}
+
+/// A reading in which a frame that is none is exactly none, if that explains as much.
+fn settled<'a>(search: &Search<'a>, best: Reading<'a>) -> Reading<'a> {
+    let free = [best.has_base, best.has_tool];
+    if best.free == free || best.rho > UNDERSTOOD {
+        return best;
+    }
+    let extras = best.fit.extras.clone();
+    let z = search.finish(&best, &extras, free, 8);
+    let is_as_good =
+        z.rho < 1.3 * best.rho + 0.1 && (z.has_base, z.has_tool) == (best.has_base, best.has_tool);
+    if is_as_good { z } else { best }
 }
 
 /// Whether the numbers of columns fit.
 fn fits(arm: &Arm, recording: &Recording, roles: &Roles) -> Result<(), HoldError> {
     let (found, needed) = (roles.joints.len(), arm.joints());
-    let all = roles.joints.iter().chain(&roles.position).chain(&roles.rotation).chain(&roles.time).chain(&roles.episode);
+    let all = roles
+        .joints
+        .iter()
+        .chain(&roles.position)
+        .chain(&roles.rotation)
+        .chain(&roles.time)
+        .chain(&roles.episode);
     if all.into_iter().any(|&c| c >= recording.columns.len()) {
         return Err(HoldError::Lengths);
     }
@@ -170,7 +231,7 @@ fn slips<'a>(reading: &Reading<'a>, own: &Arm) -> (Vec<Slip>, Vec<Slip>) {
         slips.push(Slip::Unit(scale.abs()));
     }
     slips.extend(reading.mirror.map(Slip::LeftHanded));
-    let (base, tool) = plain_frames(reading);
+    let (base, tool) = reading.plain_frames();
     if reading.has_base {
         slips.push(Slip::Base(base));
     }
@@ -197,19 +258,6 @@ fn slips<'a>(reading: &Reading<'a>, own: &Arm) -> (Vec<Slip>, Vec<Slip>) {
     (slips, small)
 }
 
-/// Base and tool of a reading, the mirror taken out.
-pub fn plain_frames(reading: &Reading) -> (Transform<f64>, Transform<f64>) {
-    let frames = &reading.fit.frames;
-    match reading.mirror {
-        None => (frames.base, frames.tool),
-        Some(axis) => {
-            let m = crate::arm::half_turn(axis);
-            let m = Transform::from_rotation_translation(m, denavit::geometry::Vector::zero());
-            (m * frames.base, frames.tool * m)
-        }
-    }
-}
-
 /// How far the hand is off under a reading at rows, root mean squares of turn and shift, rows that are far off left out.
 fn off(search: &Search, reading: &Reading, rows: &[usize]) -> Off {
     let residuals = residuals(search, reading, rows);
@@ -230,7 +278,8 @@ fn off(search: &Search, reading: &Reading, rows: &[usize]) -> Off {
 /// Residuals at rows.
 fn residuals(search: &Search, reading: &Reading, rows: &[usize]) -> Vec<[f64; 6]> {
     let data = search.data;
-    let rows: Vec<usize> = rows.iter().copied().filter(|&r| data.recorded(reading.format, r).is_some()).collect();
+    let rows: Vec<usize> =
+        rows.iter().copied().filter(|&r| data.recorded(reading.format, r).is_some()).collect();
     let recorded = data.poses(reading.format, reading.direction, &rows);
     let joints = |r: usize, lag: f64, q: &mut Vec<f64>| {
         let mut row = vec![];
@@ -265,11 +314,13 @@ fn left_alone<'a>(search: &Search<'a>, reading: &Reading<'a>, slip: &Slip) -> Op
         Slip::Gain(i, g) => without(Move::Gain(i, g), &mut hypothesis),
         Slip::Base(_) => {
             let m = reading.mirror.map_or_else(denavit::geometry::Rotation::identity, crate::arm::half_turn);
-            other.fit.frames.base = Transform::from_rotation_translation(m, denavit::geometry::Vector::zero());
+            other.fit.frames.base =
+                Transform::from_rotation_translation(m, denavit::geometry::Vector::zero());
         }
         Slip::Tool(_) => {
             let m = reading.mirror.map_or_else(denavit::geometry::Rotation::identity, crate::arm::half_turn);
-            other.fit.frames.tool = Transform::from_rotation_translation(m, denavit::geometry::Vector::zero());
+            other.fit.frames.tool =
+                Transform::from_rotation_translation(m, denavit::geometry::Vector::zero());
         }
         Slip::Lag(_) => other.fit.extras.retain(|e| e.0 != Extra::Lag),
         Slip::Zero(i, _) => other.fit.extras.retain(|e| e.0 != Extra::Zero(i)),
@@ -316,9 +367,10 @@ fn said<'a>(
 ) -> Held {
     let data = search.data;
     let columns = data.columns;
-    let is_understood = best.rho < UNDERSTOOD;
     let judged = spread(&columns.good, 1000);
     let left_over = off(search, &best, &judged);
+    let is_understood =
+        best.rho < UNDERSTOOD && left_over.turn < MOST_LEFT.turn && left_over.shift < MOST_LEFT.shift;
     let noise = Off {
         turn: 3_f64.sqrt() * data.decoded[best.format].noise,
         shift: 3_f64.sqrt() * data.noise_position / best.fit.frames.scale.abs(),
@@ -350,7 +402,9 @@ fn said<'a>(
     if !columns.back.is_empty() {
         findings.push(bare(Slip::TimeBack(columns.back.clone())));
     }
-    for (rows, slip) in [(&columns.missing, Slip::Missing as fn(Vec<usize>) -> Slip), (&columns.gaps, Slip::Gaps)] {
+    for (rows, slip) in
+        [(&columns.missing, Slip::Missing as fn(Vec<usize>) -> Slip), (&columns.gaps, Slip::Gaps)]
+    {
         if !rows.is_empty() {
             remarks.push(bare(slip(rows.clone())));
         }
@@ -364,7 +418,7 @@ fn said<'a>(
         findings,
         remarks,
         left_over,
-        noise,
+        noise: Some(noise),
         rho: best.rho,
         is_understood,
         is_computed,
@@ -380,8 +434,11 @@ fn rivals(data: &Data, found: &[Reading], best: &Reading, own: &Arm) -> Vec<Riva
         return vec![];
     }
     let is_it = |r: &Reading| {
-        r.hypothesis.key() == best.hypothesis.key() && r.format == best.format && r.direction == best.direction
-            && (r.has_base, r.has_tool) == (best.has_base, best.has_tool) && std::ptr::eq(r.arm, best.arm)
+        r.hypothesis.key() == best.hypothesis.key()
+            && r.format == best.format
+            && r.direction == best.direction
+            && (r.has_base, r.has_tool) == (best.has_base, best.has_tool)
+            && std::ptr::eq(r.arm, best.arm)
     };
     let mut rivals: Vec<Rival> = vec![];
     for r in found.iter().filter(|r| r.score < best.score + TIED && !is_it(r)) {
@@ -440,7 +497,10 @@ fn unseen(search: &Search, best: &Reading, strokes: &[f64]) -> Vec<Unseen> {
         }
         let flipped = Rc::new(best.hypothesis.plus(Move::Flip(joint)));
         let other = search.framed(&flipped, best.format, best.arm);
-        let near = other.into_iter().filter(|r| r.direction == best.direction).map(|r| search.finish(&r, &[], [true; 2], 5).rho);
+        let near = other
+            .into_iter()
+            .filter(|r| r.direction == best.direction)
+            .map(|r| search.finish(&r, &[], [true; 2], 5).rho);
         let rho = near.fold(f64::INFINITY, f64::min);
         let nats = 60.0 * ((0.15 + rho) / (0.15 + best.rho)).ln();
         if nats < TIED {
@@ -455,14 +515,14 @@ fn unseen(search: &Search, best: &Reading, strokes: &[f64]) -> Vec<Unseen> {
 }
 
 /// What is said where no joint moves.
-fn nothing_moves(arm: &Arm, recording: &Recording, roles: &Roles, columns: &Prepared, data: &Data) -> Held {
+fn nothing_moves(arm: &Arm, recording: &Recording, roles: &Roles, columns: &Prepared) -> Held {
     let recipe = Recipe::plain(recording, roles, arm);
     Held {
         recipe,
         findings: vec![],
         remarks: vec![],
         left_over: Off::default(),
-        noise: Off { turn: 0.0, shift: data.noise_position },
+        noise: None,
         rho: 0.0,
         is_understood: true,
         is_computed: false,

@@ -83,13 +83,17 @@ fn unwrapped(values: &[(f64, f64)]) -> Vec<f64> {
 }
 
 fn ends(values: &[f64]) -> [f64; 2] {
-    [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    [
+        values.iter().copied().fold(f64::INFINITY, f64::min),
+        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ]
 }
 
 /// The least and the most that a joint had at rows, as the pose shows it.
 pub fn range(search: &Search, best: &Reading, joint: usize, rows: &[usize]) -> Option<[f64; 2]> {
     let reading = (best.arm, &*best.map, &best.fit.frames, &best.scale);
-    let all = values(search.data, reading, &best.fit.extras, (best.format, best.direction, best.lag), joint, rows)?;
+    let all =
+        values(search.data, reading, &best.fit.extras, (best.format, best.direction, best.lag), joint, rows)?;
     (!all.is_empty()).then(|| ends(&unwrapped(&all)))
 }
 
@@ -107,7 +111,10 @@ pub fn at_fault(search: &Search, found: &[Reading]) -> Option<Unlike> {
             let frames = Frames::none();
             for joint in data.arm.turning() {
                 let reading = (data.arm, &map, &frames, &scale);
-                let Some(v) = values(data, reading, &[], (format, Direction::Direct, 0.0), joint, &rows) else { continue };
+                let Some(v) = values(data, reading, &[], (format, Direction::Direct, 0.0), joint, &rows)
+                else {
+                    continue;
+                };
                 let size = median(v.iter().map(|x| x.1).collect());
                 all.push((size, joint, unwrapped(&v), map.pick[joint]));
             }

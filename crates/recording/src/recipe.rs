@@ -8,7 +8,6 @@ use crate::data::{Data, Direction};
 use crate::decode::{Form, Format};
 use crate::finding::{Finding, Off, Slip};
 use crate::fit::Extra;
-use crate::hold::plain_frames;
 use crate::hypothesis::{Move, Unit};
 use crate::recording::{Recording, Roles};
 use crate::search::Reading;
@@ -117,7 +116,8 @@ impl Recipe {
             turn: None,
             behind: [1.0, 0.0],
         });
-        let form = Form::all().into_iter().find(|f| f.width() == roles.rotation.len()).unwrap_or(Form::Matrix);
+        let form =
+            Form::all().into_iter().find(|f| f.width() == roles.rotation.len()).unwrap_or(Form::Matrix);
         Recipe {
             robot: arm.name.clone(),
             table: table_of(arm),
@@ -201,7 +201,8 @@ impl Recipe {
         recipe.couplings = reading.map.couplings.clone();
         let fitted = |e: &(Extra, f64)| if let Extra::Couple(i) = e.0 { Some((i, e.1)) } else { None };
         recipe.couplings.extend(reading.fit.extras.iter().filter_map(fitted));
-        let lag = reading.fit.extras.iter().filter(|e| e.0 == Extra::Lag).map(|e| e.1).sum::<f64>() + reading.lag;
+        let lag =
+            reading.fit.extras.iter().filter(|e| e.0 == Extra::Lag).map(|e| e.1).sum::<f64>() + reading.lag;
         recipe.delay = (lag, data.columns.step.map(|s| s * lag));
         let said_length = data.columns.said_length.map_or(1.0, crate::recording::Said::si);
         recipe.scale = reading.fit.frames.scale.abs() / said_length;
@@ -209,9 +210,10 @@ impl Recipe {
         recipe.format = data.decoded[reading.format].format;
         recipe.format.degrees |= data.columns.rotation_degrees;
         recipe.direction = reading.direction;
-        let (base, tool) = plain_frames(reading);
+        let (base, tool) = reading.plain_frames();
         (recipe.base, recipe.tool) = (base, tool);
-        let length = |e: &(Extra, f64)| if let Extra::Length(k, axis) = e.0 { Some((k, axis, e.1)) } else { None };
+        let length =
+            |e: &(Extra, f64)| if let Extra::Length(k, axis) = e.0 { Some((k, axis, e.1)) } else { None };
         recipe.lengths = reading.fit.extras.iter().filter_map(length).collect();
         for finding in findings {
             match &finding.slip {

@@ -43,7 +43,10 @@ impl fmt::Display for Recipe {
             ColumnUnit::Times(k) => format!("{{ times = {} }}", number(k)),
             ColumnUnit::Range(r) => format!("{{ range = {} }}", list(r, number)),
         };
-        writeln!(f, "# q = sign · gain · (unit · column) − zero, in radians and metres; then couplings, then what stands behind them.")?;
+        writeln!(
+            f,
+            "# q = sign · gain · (unit · column) − zero, in radians and metres; then couplings, then what stands behind them."
+        )?;
         writeln!(f, "robot = {}", quoted(&self.robot))?;
         writeln!(f, "table = {} # a recipe is of one table", quoted(&self.table))?;
         writeln!(f, "\n[source]")?;
@@ -78,14 +81,23 @@ impl fmt::Display for Recipe {
         };
         writeln!(f, "lengths = {}", list(&self.lengths, length))?;
         for r in &self.rows {
-            writeln!(f, "\n[[rows]] # counted from 0, `to` is behind the last\nfrom = {}\nto = {}", r.from, r.to)?;
+            writeln!(
+                f,
+                "\n[[rows]] # counted from 0, `to` is behind the last\nfrom = {}\nto = {}",
+                r.from, r.to
+            )?;
             if let Some(column) = &r.column {
                 writeln!(f, "column = {}", quoted(column))?;
             }
             writeln!(f, "cause = {}", quoted(&r.cause))?;
         }
         writeln!(f, "\n[evidence]")?;
-        writeln!(f, "left_over = {{ turn = {}, shift = {} }} # radians and metres, root mean square", number(&self.left_over.turn), number(&self.left_over.shift))
+        writeln!(
+            f,
+            "left_over = {{ turn = {}, shift = {} }} # radians and metres, root mean square",
+            number(&self.left_over.turn),
+            number(&self.left_over.shift)
+        )
     }
 }
 
@@ -97,20 +109,26 @@ impl Recipe {
     pub fn read(text: &str) -> Result<Self, RecipeError> {
         let all: Table = text.parse().map_err(|e: toml::de::Error| RecipeError(e.to_string()))?;
         let fail = |key: &str, wanted: &str| RecipeError(format!("`{key}` is missing, or is not {wanted}"));
-        let text_at = |key: &str| at(&all, key).and_then(Value::as_str).map(String::from).ok_or_else(|| fail(key, "a text"));
+        let text_at = |key: &str| {
+            at(&all, key).and_then(Value::as_str).map(String::from).ok_or_else(|| fail(key, "a text"))
+        };
         let texts = |key: &str| {
             let list = at(&all, key).and_then(Value::as_array);
             list.and_then(|l| l.iter().map(|v| v.as_str().map(String::from)).collect::<Option<Vec<_>>>())
                 .ok_or_else(|| fail(key, "a list of texts"))
         };
-        let numbers = |key: &str| at(&all, key).and_then(floats).ok_or_else(|| fail(key, "a list of numbers"));
-        let list = |key: &str| at(&all, key).and_then(Value::as_array).cloned().ok_or_else(|| fail(key, "a list"));
+        let numbers =
+            |key: &str| at(&all, key).and_then(floats).ok_or_else(|| fail(key, "a list of numbers"));
+        let list =
+            |key: &str| at(&all, key).and_then(Value::as_array).cloned().ok_or_else(|| fail(key, "a list"));
         let columns = texts("source.joints")?;
         let n = columns.len();
         let each = |key: &str| {
-            numbers(key).and_then(|l| if l.len() == n { Ok(l) } else { Err(fail(key, "one number for each joint")) })
+            numbers(key)
+                .and_then(|l| if l.len() == n { Ok(l) } else { Err(fail(key, "one number for each joint")) })
         };
-        let (sign, gain, zero, turn) = (each("joints.sign")?, each("joints.gain")?, each("joints.zero")?, each("joints.turn")?);
+        let (sign, gain, zero, turn) =
+            (each("joints.sign")?, each("joints.gain")?, each("joints.zero")?, each("joints.turn")?);
         let behind = [each("joints.gain_behind")?, each("joints.zero_behind")?];
         let units = list("joints.unit")?;
         let mut joints = vec![];
@@ -143,13 +161,18 @@ impl Recipe {
             "none" => None,
             name => Some(axis(name).ok_or_else(|| fail("position.mirrored", "none, x, y or z"))?),
         };
-        let form: Form = text_at("rotation.format")?.parse().map_err(|()| fail("rotation.format", "a format"))?;
-        let degrees = at(&all, "rotation.degrees").and_then(Value::as_bool).ok_or_else(|| fail("rotation.degrees", "true or false"))?;
+        let form: Form =
+            text_at("rotation.format")?.parse().map_err(|()| fail("rotation.format", "a format"))?;
+        let degrees = at(&all, "rotation.degrees")
+            .and_then(Value::as_bool)
+            .ok_or_else(|| fail("rotation.degrees", "true or false"))?;
         let of = text_at("rotation.of")?;
         let direction = Direction::ALL.into_iter().find(|d| direction_of(*d) == of);
         let frame = |key: &str| -> Result<Transform<f64>, RecipeError> {
             let rows: Option<Vec<Vec<f64>>> = list(key)?.iter().map(floats).collect();
-            let rows = rows.filter(|r| r.len() == 3 && r.iter().all(|r| r.len() == 4)).ok_or_else(|| fail(key, "three rows of four numbers"))?;
+            let rows = rows
+                .filter(|r| r.len() == 3 && r.iter().all(|r| r.len() == 4))
+                .ok_or_else(|| fail(key, "three rows of four numbers"))?;
             let turn = Rotation::from_matrix(std::array::from_fn(|i| [rows[i][0], rows[i][1], rows[i][2]]))
                 .map_err(|e| RecipeError(format!("`{key}`: {e}")))?;
             Ok(Transform::from_rotation_translation(turn, Vector(std::array::from_fn(|i| rows[i][3]))))
@@ -165,9 +188,12 @@ impl Recipe {
         }
         let mut rows = vec![];
         for r in all.get("rows").and_then(Value::as_array).into_iter().flatten() {
-            let row = |key: &str| r.get(key).and_then(Value::as_integer).and_then(|k| usize::try_from(k).ok());
+            let row =
+                |key: &str| r.get(key).and_then(Value::as_integer).and_then(|k| usize::try_from(k).ok());
             let text = |key: &str| r.get(key).and_then(Value::as_str).map(String::from);
-            let (Some(from), Some(to)) = (row("from"), row("to")) else { return Err(fail("rows", "`from` and `to` of each")) };
+            let (Some(from), Some(to)) = (row("from"), row("to")) else {
+                return Err(fail("rows", "`from` and `to` of each"));
+            };
             rows.push(Rows { from, to, column: text("column"), cause: text("cause").unwrap_or_default() });
         }
         let one = |key: &str| at(&all, key).and_then(float).ok_or_else(|| fail(key, "a number"));
@@ -203,7 +229,12 @@ impl Recipe {
         if self.table == table_of(arm) && self.joints.len() == arm.joints() {
             return Ok(());
         }
-        Err(RecipeError(format!("the recipe is of another table: {}, {}; this one is {}", self.robot, self.table, table_of(arm))))
+        Err(RecipeError(format!(
+            "the recipe is of another table: {}, {}; this one is {}",
+            self.robot,
+            self.table,
+            table_of(arm)
+        )))
     }
 }
 

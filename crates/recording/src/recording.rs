@@ -129,7 +129,10 @@ impl std::fmt::Display for HoldError {
                 write!(f, "the robot has {needed} joints, and {found} columns are taken for joints")
             }
             HoldError::TooManyJoints { found, needed } => {
-                write!(f, "{found} columns are taken for the {needed} joints of the robot: too many to try which are none")
+                write!(
+                    f,
+                    "{found} columns are taken for the {needed} joints of the robot: too many to try which are none"
+                )
             }
             HoldError::Position(found) => write!(f, "a position is three columns, not {found}"),
             HoldError::Rotation(found) => write!(f, "an orientation is 3, 4, 6 or 9 columns, not {found}"),
@@ -137,7 +140,10 @@ impl std::fmt::Display for HoldError {
                 write!(f, "the columns of the orientation are none in any format, first in row {}", row + 1)
             }
             HoldError::Rows { whole, all } => {
-                write!(f, "{whole} of {all} rows have a number in every column that is needed; at least {LEAST} are")
+                write!(
+                    f,
+                    "{whole} of {all} rows have a number in every column that is needed; at least {LEAST} are"
+                )
             }
             HoldError::Value(text) => f.write_str(text),
             HoldError::Lengths => f.write_str("the columns have different lengths"),

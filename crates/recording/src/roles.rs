@@ -33,14 +33,20 @@ impl std::fmt::Display for RolesError {
         };
         match self {
             RolesError::NoColumn(name, near) if near.is_empty() => write!(f, "there is no column `{name}`"),
-            RolesError::NoColumn(name, near) => write!(f, "there is no column `{name}`; there are {}", list(near)),
+            RolesError::NoColumn(name, near) => {
+                write!(f, "there is no column `{name}`; there are {}", list(near))
+            }
             RolesError::Unknown(what, names) => {
                 let example = match *what {
                     "joints" => "--joints q1,q2,q3 or --joints q1..q6",
                     "position" => "--position x,y,z",
                     _ => "--rotation rx,ry,rz",
                 };
-                write!(f, "which columns are the {what} is not known by their names: {}\n  = hint: say it with {example}", list(names))
+                write!(
+                    f,
+                    "which columns are the {what} is not known by their names: {}\n  = hint: say it with {example}",
+                    list(names)
+                )
             }
         }
     }
@@ -50,16 +56,64 @@ impl std::error::Error for RolesError {}
 
 /// Names of a joint before its number.
 const JOINTS: &[&str] = &[
-    "q", "j", "a", "th", "theta", "θ", "joint", "joints", "jointposition", "jointpositions", "jointangle", "jointangles",
-    "jointpos", "jointstate", "jointstates", "actualq", "qactual", "measuredq", "qmeasured", "qpos", "robotq", "position",
-    "positions", "state", "observationstate", "axis", "angle", "angles", "obsjoint", "jpos", "qmeas", "msrjointpos",
+    "q",
+    "j",
+    "a",
+    "th",
+    "theta",
+    "θ",
+    "joint",
+    "joints",
+    "jointposition",
+    "jointpositions",
+    "jointangle",
+    "jointangles",
+    "jointpos",
+    "jointstate",
+    "jointstates",
+    "actualq",
+    "qactual",
+    "measuredq",
+    "qmeasured",
+    "qpos",
+    "robotq",
+    "position",
+    "positions",
+    "state",
+    "observationstate",
+    "axis",
+    "angle",
+    "angles",
+    "obsjoint",
+    "jpos",
+    "qmeas",
+    "msrjointpos",
 ];
 /// Names of the time, its unit left aside.
-const TIMES: &[&str] = &["t", "time", "timestamp", "stamp", "seconds", "timesec", "elapsed", "headerstamp", "timestamps"];
+const TIMES: &[&str] =
+    &["t", "time", "timestamp", "stamp", "seconds", "timesec", "elapsed", "headerstamp", "timestamps"];
 /// Names of a whole pose before its numbers.
 const POSES: &[&str] = &[
-    "pose", "tcppose", "actualtcppose", "tcp", "eepose", "ee", "toolpose", "ote", "otee", "handpose", "flangepose", "x", "cartesianpose",
-    "cartesianposition", "observationpose", "observationeepose", "eefpose", "t", "endeffectorpose", "endpose",
+    "pose",
+    "tcppose",
+    "actualtcppose",
+    "tcp",
+    "eepose",
+    "ee",
+    "toolpose",
+    "ote",
+    "otee",
+    "handpose",
+    "flangepose",
+    "x",
+    "cartesianpose",
+    "cartesianposition",
+    "observationpose",
+    "observationeepose",
+    "eefpose",
+    "t",
+    "endeffectorpose",
+    "endpose",
 ];
 
 /// Small letters, digits and Greek ones alone.
@@ -83,7 +137,9 @@ fn told(recording: &Recording, text: &str) -> Result<Vec<usize>, RolesError> {
         let exact = names.iter().position(|n| *n == name);
         let loose = || names.iter().position(|n| plain(n) == plain(name) && !plain(name).is_empty());
         exact.or_else(loose).ok_or_else(|| {
-            let near = names.iter().filter(|n| plain(n).starts_with(&plain(&name.chars().take(1).collect::<String>())));
+            let near = names
+                .iter()
+                .filter(|n| plain(n).starts_with(&plain(&name.chars().take(1).collect::<String>())));
             let near: Vec<String> = near.map(|n| (*n).to_string()).collect();
             let all = names.iter().map(|n| (*n).to_string()).collect();
             RolesError::NoColumn(name.into(), if near.is_empty() { all } else { near })
@@ -140,7 +196,11 @@ impl Roles {
     fn by_places(&mut self, recording: &Recording, arm: &Arm) {
         let n = arm.joints();
         let all = recording.columns.len();
-        let nameless = recording.columns.iter().enumerate().all(|(k, c)| c.name == format!("column {}", k + 1) || c.name.starts_with("column["));
+        let nameless = recording
+            .columns
+            .iter()
+            .enumerate()
+            .all(|(k, c)| c.name == format!("column {}", k + 1) || c.name.starts_with("column["));
         if !nameless || !self.joints.is_empty() || !self.position.is_empty() || !self.rotation.is_empty() {
             return;
         }
@@ -209,10 +269,15 @@ impl Names {
         for names in [&arm.joint_names, &arm.names] {
             let find = |name: &String| {
                 let name = plain(name);
-                let ends = [name.clone(), format!("{name}pos"), format!("{name}position"), format!("joint{name}")];
+                let ends =
+                    [name.clone(), format!("{name}pos"), format!("{name}position"), format!("joint{name}")];
                 let is = |p: &&String| ends.contains(*p);
                 let exact = self.plain.iter().position(|p| is(&p));
-                exact.or_else(|| self.plain.iter().position(|p| p.ends_with(&format!("state{name}pos")) || p.ends_with(&format!("position{name}"))))
+                exact.or_else(|| {
+                    self.plain.iter().position(|p| {
+                        p.ends_with(&format!("state{name}pos")) || p.ends_with(&format!("position{name}"))
+                    })
+                })
             };
             let found: Option<Vec<usize>> = names.iter().map(find).collect();
             if let Some(found) = found.filter(|f| f.iter().all(|k| !taken.contains(k)) && !f.is_empty()) {
@@ -233,7 +298,9 @@ impl Names {
     /// Position and orientation.
     fn pose(&self, recording: &Recording, taken: &[usize]) -> (Option<Vec<usize>>, Option<Vec<usize>>) {
         let of_pose = |g: &&(String, Vec<usize>)| {
-            POSES.contains(&g.0.as_str()) && [6, 7, 9, 12, 16].contains(&g.1.len()) && g.1.iter().all(|k| !taken.contains(k))
+            POSES.contains(&g.0.as_str())
+                && [6, 7, 9, 12, 16].contains(&g.1.len())
+                && g.1.iter().all(|k| !taken.contains(k))
         };
         if let Some((_, c)) = self.groups.iter().find(of_pose) {
             let pick = |places: &[usize]| places.iter().map(|&k| c[k]).collect::<Vec<_>>();
@@ -250,7 +317,11 @@ impl Names {
             };
             return (Some(position), Some(rotation));
         }
-        let position = self.family(taken, &["x", "y", "z"], &["", "p", "t", "pos", "tcp", "position", "translation", "tool", "ee", "hand"]);
+        let position = self.family(
+            taken,
+            &["x", "y", "z"],
+            &["", "p", "t", "pos", "tcp", "position", "translation", "tool", "ee", "hand"],
+        );
         let rotation = [
             &["qx", "qy", "qz", "qw"][..],
             &["qw", "qx", "qy", "qz"],
@@ -272,15 +343,33 @@ impl Names {
         .into_iter()
         .find_map(|names| self.family(taken, names, &[""]));
         let numbered = || {
-            let stems = ["r", "rot", "rotation", "quat", "quaternion", "orientation", "o", "rotvec", "rpy", "rot6d", "euler", "rotmat"];
+            let stems = [
+                "r",
+                "rot",
+                "rotation",
+                "quat",
+                "quaternion",
+                "orientation",
+                "o",
+                "rotvec",
+                "rpy",
+                "rot6d",
+                "euler",
+                "rotmat",
+            ];
             let is = |g: &&(String, Vec<usize>)| {
-                stems.iter().any(|s| g.0.ends_with(s) && g.0.len() <= s.len() + 12) && [3, 4, 6, 9].contains(&g.1.len()) && g.1.iter().all(|k| !taken.contains(k))
+                stems.iter().any(|s| g.0.ends_with(s) && g.0.len() <= s.len() + 12)
+                    && [3, 4, 6, 9].contains(&g.1.len())
+                    && g.1.iter().all(|k| !taken.contains(k))
             };
             self.groups.iter().find(is).map(|g| g.1.clone())
         };
         let placed = || {
-            let stems = ["p", "pos", "position", "translation", "tcppos", "eepos", "xyz", "eefpos", "robot0eefpos"];
-            let is = |g: &&(String, Vec<usize>)| stems.contains(&g.0.as_str()) && g.1.len() == 3 && g.1.iter().all(|k| !taken.contains(k));
+            let stems =
+                ["p", "pos", "position", "translation", "tcppos", "eepos", "xyz", "eefpos", "robot0eefpos"];
+            let is = |g: &&(String, Vec<usize>)| {
+                stems.contains(&g.0.as_str()) && g.1.len() == 3 && g.1.iter().all(|k| !taken.contains(k))
+            };
             self.groups.iter().find(is).map(|g| g.1.clone())
         };
         (position.or_else(placed), rotation.or_else(numbered))

@@ -60,6 +60,20 @@ pub struct Reading<'a> {
     pub has_tool: bool,
 }
 
+impl Reading<'_> {
+    /// Base and tool, the mirror taken out.
+    pub fn plain_frames(&self) -> (Transform<f64>, Transform<f64>) {
+        let frames = &self.fit.frames;
+        match self.mirror {
+            None => (frames.base, frames.tool),
+            Some(axis) => {
+                let m = Transform::from_rotation_translation(half_turn(axis), Vector::zero());
+                (m * frames.base, frames.tool * m)
+            }
+        }
+    }
+}
+
 /// What is searched.
 pub struct Search<'a> {
     /// The data.
@@ -77,7 +91,8 @@ impl<'a> Search<'a> {
     /// Of data, for a lag.
     pub fn new(data: &'a Data<'a>, lag: f64) -> Self {
         let bases = bases(data);
-        let mut search = Search { data, noise_joints: 0.0, lag, scored: vec![], seen: BTreeSet::new(), bases };
+        let mut search =
+            Search { data, noise_joints: 0.0, lag, scored: vec![], seen: BTreeSet::new(), bases };
         search.noise_joints = search.noise_of(&search.bases[0]);
         search
     }
@@ -110,7 +125,9 @@ impl<'a> Search<'a> {
 
     /// The best readings, by their best format.
     fn best(&self, count: usize) -> Vec<&Scored> {
-        let worth = |s: &Scored| s.differences.iter().copied().fold(f64::INFINITY, f64::min) + NAT * s.hypothesis.cost();
+        let worth = |s: &Scored| {
+            s.differences.iter().copied().fold(f64::INFINITY, f64::min) + NAT * s.hypothesis.cost()
+        };
         let mut all: Vec<(f64, &Scored)> = self.scored.iter().map(|s| (worth(s), s)).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.into_iter().take(count).map(|s| s.1).collect()
@@ -259,7 +276,13 @@ impl<'a> Search<'a> {
     }
 
     /// Fits a reading with some numbers free beside base and tool, or without these.
-    pub fn finish(&self, start: &Reading<'a>, extras: &[(Extra, f64)], free: [bool; 2], steps: usize) -> Reading<'a> {
+    pub fn finish(
+        &self,
+        start: &Reading<'a>,
+        extras: &[(Extra, f64)],
+        free: [bool; 2],
+        steps: usize,
+    ) -> Reading<'a> {
         let mirrors: &[Option<Axis>] = match (start.fit.frames.scale < 0.0, free) {
             (false, _) | (true, [true, true]) => &[None],
             (true, _) => &[Some(Axis::X), Some(Axis::Y), Some(Axis::Z)],
@@ -306,8 +329,10 @@ impl<'a> Search<'a> {
         let rho = rho(&held.residuals(&fit.frames, &held.model(&fit.extras)));
         let mut reading = Reading { fit, free, rho, ..start.clone() };
         let size = rho.min(3.0);
-        let (turn, shift) =
-            (1.2_f64.to_radians() + 2.0 * start.scale.turn * size / 7.0, 0.008 + 2.0 * start.scale.shift * size / 3.0);
+        let (turn, shift) = (
+            1.2_f64.to_radians() + 2.0 * start.scale.turn * size / 7.0,
+            0.008 + 2.0 * start.scale.shift * size / 3.0,
+        );
         let frames = &reading.fit.frames;
         let is_there = |x: &Transform<f64>, m: &Rotation<f64>| {
             between(&x.rotation, m) > turn || x.translation.norm() > shift
@@ -316,7 +341,10 @@ impl<'a> Search<'a> {
             (false, _) => None,
             (true, Some(axis)) => Some(axis),
             (true, None) => {
-                let far = |a: &Axis| between(&frames.base.rotation, &half_turn(*a)) + between(&frames.tool.rotation, &half_turn(*a));
+                let far = |a: &Axis| {
+                    between(&frames.base.rotation, &half_turn(*a))
+                        + between(&frames.tool.rotation, &half_turn(*a))
+                };
                 Axis::ALL.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
             }
         };
@@ -345,7 +373,8 @@ impl<'a> Search<'a> {
         let mut framed: Vec<Reading<'a>> =
             self.survivors().iter().flat_map(|(h, e)| self.framed(h, *e, self.data.arm)).collect();
         framed.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let mut fitted: Vec<Reading<'a>> = framed.iter().take(14).flat_map(|r| self.nested(r, &[], 6)).collect();
+        let mut fitted: Vec<Reading<'a>> =
+            framed.iter().take(14).flat_map(|r| self.nested(r, &[], 6)).collect();
         let plain = framed.iter().skip(14).filter(|r| r.hypothesis.moves.is_empty()).take(3);
         fitted.extend(plain.map(|r| self.finish(r, &[], [true; 2], 4)));
         fitted.sort_by(|a, b| a.score.total_cmp(&b.score));
@@ -380,8 +409,7 @@ fn differences(
         map.apply(row, q);
         arm.rotation(q)
     };
-    let angles: Vec<f64> =
-        data.pairs.iter().map(|&(s, t)| angle(&(turn(s).inverse() * turn(t)))).collect();
+    let angles: Vec<f64> = data.pairs.iter().map(|&(s, t)| angle(&(turn(s).inverse() * turn(t)))).collect();
     let mean = |other: &[f64]| {
         let cut = |(a, b): (&f64, &f64)| (a - b).abs().min(CUT);
         angles.iter().zip(other).map(cut).sum::<f64>() / angles.len() as f64

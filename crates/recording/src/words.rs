@@ -19,6 +19,8 @@ pub struct Names<'a> {
     pub columns: Vec<&'a str>,
     /// The number of the first row in the file, where rows are counted from 1 and heads count.
     pub first_row: usize,
+    /// What a row is called: `row`, or `line` of a text.
+    pub row: &'static str,
 }
 
 /// The lines of a report: what the columns are, what was found, what cannot be seen, what is left over.
@@ -112,28 +114,28 @@ pub fn slip(slip: &Slip, held: &Held, names: &Names) -> String {
         Slip::Jump(c, r, count, turn) => {
             let times = if *count == 1 { "once".into() } else { format!("{count} times") };
             let turn = if *turn > 7.0 { "360" } else { "2π" };
-            format!("{}: jumps by {turn}, {times}, first in row {}", column(*c), row(*r))
+            format!("{}: jumps by {turn}, {times}, first in {} {}", column(*c), names.row, row(*r))
         }
         Slip::Stuck(s) => {
             let did = s.meanwhile.map_or(String::new(), |[low, high]| {
                 let unit = turns(s.joint);
                 format!("; by the pose the joint went from {} to {}", number(unit, low), number(unit, high))
             });
-            format!("{}: stands still in rows {} to {} while the hand goes on{did}", joint(s.joint), row(s.from), row(s.to - 1))
+            format!("{}: stands still in {}s {} to {} while the hand goes on{did}", joint(s.joint), names.row, row(s.from), row(s.to - 1))
         }
         Slip::Spikes(rows) => {
-            format!("the pose jumps away and back in {}: {}", count(rows.len(), "row", "rows"), list(rows, names.first_row))
+            format!("the pose jumps away and back in {}: {}", count(rows.len(), names.row), list(rows, names.first_row))
         }
         Slip::Missing(rows) => {
-            format!("a number is missing in {}: {}", count(rows.len(), "row", "rows"), list(rows, names.first_row))
+            format!("a number is missing in {}: {}", count(rows.len(), names.row), list(rows, names.first_row))
         }
         Slip::TimeBack(rows) => format!(
             "the time does not go on in {}: {}; rows are taken as they stand, and no lag is seen across these",
-            count(rows.len(), "row", "rows"),
+            count(rows.len(), names.row),
             list(rows, names.first_row)
         ),
         Slip::Gaps(rows) => {
-            format!("time is missing before {}: {}", count(rows.len(), "row", "rows"), list(rows, names.first_row))
+            format!("time is missing before {}: {}", count(rows.len(), names.row), list(rows, names.first_row))
         }
         Slip::Unlike(u) => {
             let does = if u.is_still { "does not move" } else { "does not follow the motion" };
@@ -153,7 +155,8 @@ pub fn slip(slip: &Slip, held: &Held, names: &Names) -> String {
 
 fn lag(by: &Fitted, held: &Held) -> String {
     let rows = by.value.abs();
-    let which = if by.value > 0.0 { "the pose is behind the joints" } else { "the joints are behind the pose" };
+    let which =
+        if by.value > 0.0 { "the pose is behind the joints" } else { "the joints are behind the pose" };
     let time = held.recipe.delay.1.map_or(String::new(), |s| format!("{:.0} ms, ", 1e3 * s.abs()));
     format!("{which} by {time}{rows:.2} ± {:.2} rows", by.deviation)
 }
@@ -188,21 +191,29 @@ pub fn left_over(held: &Held) -> String {
     if held.unseen == [Unseen::Everything] {
         return "nothing to compare".into();
     }
-    let (rest, noise) = (off(&held.left_over), off(&held.noise));
+    let rest = off(&held.left_over);
     if held.is_computed {
-        return format!("left over: {rest}; the pose was computed from these joints with this table, not measured");
+        return format!(
+            "left over: {rest}; the pose was computed from these joints with this table, not measured"
+        );
     }
-    let of_noise = held.left_over.shift < 1.5 * held.noise.shift + 1e-9 && held.left_over.turn < 1.5 * held.noise.turn + 1e-9;
-    match () {
-        () if !held.is_understood => format!("left over by the best reading: {rest}"),
-        () if held.findings.is_empty() && of_noise => {
-            format!("nothing to remark: {rest}; the noise of the columns alone is {noise}")
+    if !held.is_understood {
+        return format!("left over by the best reading: {rest}");
+    }
+    let (noise, is_noise) = match &held.noise {
+        None => ("the rows are too far apart for the noise to be seen".into(), true),
+        Some(noise) => {
+            let is_noise = held.left_over.shift < 1.5 * noise.shift + 1e-9
+                && held.left_over.turn < 1.5 * noise.turn + 1e-9;
+            (format!("the noise of the columns alone is {}", off(noise)), is_noise)
         }
-        () if of_noise => format!("left over: {rest}; the noise of the columns alone is {noise}"),
-        () if held.findings.is_empty() => {
-            format!("nothing to remark but what an arm shows that was not calibrated: {rest}; the noise of the columns alone is {noise}")
+    };
+    match (held.findings.is_empty(), is_noise) {
+        (false, _) => format!("left over: {rest}; {noise}"),
+        (true, true) => format!("nothing to remark: {rest}; {noise}"),
+        (true, false) => {
+            format!("nothing to remark but what an arm shows that was not calibrated: {rest}; {noise}")
         }
-        () => format!("left over: {rest}; the noise of the columns alone is {noise}"),
     }
 }
 
@@ -327,8 +338,8 @@ fn direction(v: Vector<f64>) -> String {
     format!("({:.3}, {:.3}, {:.3})", v[0], v[1], v[2])
 }
 
-fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
+fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 /// The first rows of a list.

@@ -20,15 +20,17 @@ enum Between {
 /// The text of bytes: UTF-8, or UTF-16 where they begin with its mark.
 fn decoded(bytes: &[u8]) -> Result<String, TableError> {
     let units = |big: bool| {
-        let unit = |c: &[u8]| if big { u16::from_be_bytes([c[0], c[1]]) } else { u16::from_le_bytes([c[0], c[1]]) };
+        let unit =
+            |c: &[u8]| if big { u16::from_be_bytes([c[0], c[1]]) } else { u16::from_le_bytes([c[0], c[1]]) };
         String::from_utf16_lossy(&bytes[2..].chunks_exact(2).map(unit).collect::<Vec<u16>>())
     };
     match bytes {
         [0xff, 0xfe, ..] => Ok(units(false)),
         [0xfe, 0xff, ..] => Ok(units(true)),
-        _ if bytes[..bytes.len().min(HEAD)].contains(&0) => {
-            Err(TableError::new("this is no text", "a table in CSV is a text; other files are told by their ending"))
-        }
+        _ if bytes[..bytes.len().min(HEAD)].contains(&0) => Err(TableError::new(
+            "this is no text",
+            "a table in CSV is a text; other files are told by their ending",
+        )),
         _ => {
             let text = String::from_utf8_lossy(bytes);
             Ok(text.strip_prefix('\u{feff}').unwrap_or(&text).to_string())
@@ -60,7 +62,10 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
     let mut each = |line: usize, cells: &[&str]| -> Result<(), TableError> {
         if cells.len() > MAX_COLUMNS {
             let what = format!("line {line} has {} columns", cells.len());
-            return Err(TableError::new(what, format!("at most {MAX_COLUMNS} can be read: is it one row a moment?")));
+            return Err(TableError::new(
+                what,
+                format!("at most {MAX_COLUMNS} can be read: is it one row a moment?"),
+            ));
         }
         let is_number = |c: &&&str| number(c, dialect.decimal_comma).is_some();
         if names.is_none() && columns.is_empty() {
@@ -79,7 +84,10 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
             texts = vec![0; columns.len()];
         }
         if rows * columns.len() > MAX_NUMBERS {
-            return Err(TableError::new(format!("more than {MAX_NUMBERS} numbers"), "take a part of the file"));
+            return Err(TableError::new(
+                format!("more than {MAX_NUMBERS} numbers"),
+                "take a part of the file",
+            ));
         }
         if cells.len() != columns.len() {
             uneven_count += 1;
@@ -128,7 +136,12 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
                         let at = record.position().map_or(line, ::csv::Position::line);
                         each(usize::try_from(at).unwrap_or(0), &cells)?;
                     }
-                    Err(e) => return Err(TableError::new(format!("line {line}: {e}"), "quote texts that hold quotes")),
+                    Err(e) => {
+                        return Err(TableError::new(
+                            format!("line {line}: {e}"),
+                            "quote texts that hold quotes",
+                        ));
+                    }
                 }
             }
         }
@@ -136,7 +149,8 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
     if rows == 0 {
         return Err(TableError::new("there is a head and no row", "a recording has a row for each moment"));
     }
-    let mut remarks = vec![dialect.said(names.as_deref().is_some_and(|n| n.first().is_some_and(|n| n != "column 1")))];
+    let mut remarks =
+        vec![dialect.said(names.as_deref().is_some_and(|n| n.first().is_some_and(|n| n != "column 1")))];
     // A column of texts is left out.
     let is_text: Vec<bool> = texts.iter().map(|t| 2 * t > rows).collect();
     let left: Vec<String> = columns.iter().zip(&is_text).filter(|c| *c.1).map(|c| c.0.name.clone()).collect();
@@ -209,13 +223,16 @@ fn sniffed(sample: &[&str]) -> Dialect {
                 }
             };
             let all: Vec<Vec<bool>> = sample.iter().map(|l| cells(l)).collect();
-            let width = all.last().map_or(0, Vec::len);
+            // As many as most rows have.
+            let rows_of = |w: usize| all.iter().filter(|r| r.len() == w).count();
+            let width = all.iter().map(Vec::len).max_by_key(|&w| (rows_of(w), w)).unwrap_or(0);
             let even = all.iter().filter(|r| r.len() == width).count() as f64 / all.len() as f64;
             let numbers: usize = all.iter().flatten().filter(|n| **n).count();
             let whole: usize = all.iter().map(Vec::len).sum();
             let part = numbers as f64 / whole.max(1) as f64;
             // More columns of numbers, all rows alike.
-            let worth = even * part * (width as f64).min(64.0).sqrt() * if decimal_comma { 0.99 } else { 1.0 };
+            let worth =
+                even * part * (width as f64).min(64.0).sqrt() * if decimal_comma { 0.99 } else { 1.0 };
             if worth > best.0 + 1e-9 {
                 best = (worth, Dialect { between, decimal_comma });
             }
@@ -237,4 +254,25 @@ impl Dialect {
         let head = if has_head { "a head with names" } else { "no head: columns by their numbers" };
         format!("read with {between} between the values, {decimal}, {head}")
     }
+}
+
+/// A table with commas and decimal points; units stand behind their names in brackets.
+pub fn written(columns: &[Column]) -> String {
+    let quoted = |text: String| {
+        if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
+    };
+    let head = |c: &Column| quoted(c.unit.as_ref().map_or(c.name.clone(), |u| format!("{} [{u}]", c.name)));
+    let mut text = columns.iter().map(head).collect::<Vec<_>>().join(",") + "\n";
+    for r in 0..columns.first().map_or(0, |c| c.values.len()) {
+        for (k, c) in columns.iter().enumerate() {
+            if k > 0 {
+                text.push(',');
+            }
+            if c.values[r].is_finite() {
+                text += &c.values[r].to_string();
+            }
+        }
+        text.push('\n');
+    }
+    text
 }

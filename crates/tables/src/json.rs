@@ -30,7 +30,11 @@ impl Growing {
                     let what = format!("more than {MAX_COLUMNS} columns in row {}", self.rows + 1);
                     return Err(TableError::new(what, "is it one object a moment?"));
                 }
-                self.columns.push(Column { name: name.into(), unit: None, values: vec![f64::NAN; self.rows] });
+                self.columns.push(Column {
+                    name: name.into(),
+                    unit: None,
+                    values: vec![f64::NAN; self.rows],
+                });
                 self.by_name.insert(name.into(), self.columns.len() - 1);
                 self.columns.len() - 1
             }
@@ -61,10 +65,17 @@ impl Growing {
                 if known != list.len() {
                     self.uneven_count += 1;
                     if self.uneven.len() < 5 {
-                        self.uneven.push(format!("`{name}` has {} in row {}, {known} before", list.len(), self.rows + 1));
+                        self.uneven.push(format!(
+                            "`{name}` has {} in row {}, {known} before",
+                            list.len(),
+                            self.rows + 1
+                        ));
                     }
                 }
-                list.iter().take(known.max(1)).enumerate().try_for_each(|(i, v)| self.add(&format!("{name}[{i}]"), v, depth + 1))
+                list.iter()
+                    .take(known.max(1))
+                    .enumerate()
+                    .try_for_each(|(i, v)| self.add(&format!("{name}[{i}]"), v, depth + 1))
             }
             Value::Object(map) => map.iter().try_for_each(|(k, v)| self.add(&joined(k), v, depth + 1)),
         }
@@ -76,7 +87,10 @@ impl Growing {
             c.values.resize(self.rows, f64::NAN);
         }
         if self.rows * self.columns.len() > MAX_NUMBERS {
-            return Err(TableError::new(format!("more than {MAX_NUMBERS} numbers"), "take a part of the file"));
+            return Err(TableError::new(
+                format!("more than {MAX_NUMBERS} numbers"),
+                "take a part of the file",
+            ));
         }
         Ok(())
     }
@@ -116,7 +130,10 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
             }
             Err(e) => {
                 let what = format!("line {}, column {}: no JSON ({e})", k + 1, e.column());
-                return Err(TableError::new(what, "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}"));
+                return Err(TableError::new(
+                    what,
+                    "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}",
+                ));
             }
         };
         match value {
@@ -124,7 +141,10 @@ pub fn read(bytes: &[u8]) -> Result<Table, TableError> {
             Value::Array(_) => growing.add("column ", &value, 0)?,
             _ => {
                 let what = format!("line {}: neither an object nor a list", k + 1);
-                return Err(TableError::new(what, "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}"));
+                return Err(TableError::new(
+                    what,
+                    "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}",
+                ));
             }
         }
         growing.end_row()?;
@@ -145,7 +165,8 @@ fn whole(value: &Value) -> Result<Table, TableError> {
         }
         Value::Object(map) => {
             let length = map.values().find_map(Value::as_array).map_or(0, Vec::len);
-            let is_columns = length > 1 && map.values().filter_map(Value::as_array).all(|a| a.len() == length);
+            let is_columns =
+                length > 1 && map.values().filter_map(Value::as_array).all(|a| a.len() == length);
             if !is_columns {
                 growing.add("", value, 0)?;
                 growing.end_row()?;
@@ -161,6 +182,9 @@ fn whole(value: &Value) -> Result<Table, TableError> {
             }
             Ok(growing.table("read as an object of columns"))
         }
-        _ => Err(TableError::new("neither objects nor lists", "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}")),
+        _ => Err(TableError::new(
+            "neither objects nor lists",
+            "a line holds one object, as in {\"q\": [0, 0.1], \"x\": 0.4}",
+        )),
     }
 }

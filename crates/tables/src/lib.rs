@@ -8,6 +8,7 @@ mod json;
 mod npy;
 mod zip;
 
+pub use crate::csv::written;
 use std::fmt;
 
 /// The most columns that a table may have.
@@ -71,12 +72,14 @@ pub struct TableError {
     pub what: String,
     /// What to do.
     pub hint: String,
+    /// Whether they may be another kind of text: nothing in them is a number.
+    pub is_other: bool,
 }
 
 impl TableError {
     /// With a hint.
     pub(crate) fn new(what: impl Into<String>, hint: impl Into<String>) -> Self {
-        TableError { what: what.into(), hint: hint.into() }
+        TableError { what: what.into(), hint: hint.into(), is_other: false }
     }
 }
 
@@ -105,7 +108,10 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
         }
     }
     if table.columns.is_empty() {
-        return Err(TableError::new("there is no column of numbers", "a recording has a column for each joint"));
+        return Err(TableError::new(
+            "there is no column of numbers",
+            "a recording has a column for each joint",
+        ));
     }
     Ok(table)
 }

@@ -48,7 +48,10 @@ pub fn read_all(bytes: &[u8]) -> Result<Table, TableError> {
         }
     }
     if columns.len() > MAX_COLUMNS {
-        return Err(TableError::new(format!("{} columns", columns.len()), format!("at most {MAX_COLUMNS} can be read")));
+        return Err(TableError::new(
+            format!("{} columns", columns.len()),
+            format!("at most {MAX_COLUMNS} can be read"),
+        ));
     }
     remarks.insert(0, "read as arrays of NumPy, a row for each entry of their first axis".into());
     Ok(Table { columns, first_row: 1, remarks })
@@ -56,7 +59,8 @@ pub fn read_all(bytes: &[u8]) -> Result<Table, TableError> {
 
 /// The columns of an array.
 fn array(b: &[u8], name: &str) -> Result<(Vec<Column>, String), TableError> {
-    let broken = |what: &str| TableError::new(format!("the array is broken: {what}"), "was the file copied whole?");
+    let broken =
+        |what: &str| TableError::new(format!("the array is broken: {what}"), "was the file copied whole?");
     if !b.starts_with(b"\x93NUMPY") || b.len() < 12 {
         return Err(broken("it does not begin as one"));
     }
@@ -71,20 +75,26 @@ fn array(b: &[u8], name: &str) -> Result<(Vec<Column>, String), TableError> {
         let at = head.find(&format!("'{key}'")).or_else(|| head.find(&format!("\"{key}\"")))?;
         Some(head[at + key.len() + 2..].trim_start().strip_prefix(':')?.trim_start())
     };
-    let is_columns = behind("fortran_order").ok_or_else(|| broken("its head has no order"))?.starts_with("True");
+    let is_columns =
+        behind("fortran_order").ok_or_else(|| broken("its head has no order"))?.starts_with("True");
     let shape = behind("shape").and_then(|s| s.strip_prefix('(')).and_then(|s| s.split_once(')'));
     let shape = shape.ok_or_else(|| broken("its head has no shape"))?.0;
-    let shape: Option<Vec<usize>> = shape.split(',').map(str::trim).filter(|s| !s.is_empty()).map(|s| s.parse().ok()).collect();
+    let shape: Option<Vec<usize>> =
+        shape.split(',').map(str::trim).filter(|s| !s.is_empty()).map(|s| s.parse().ok()).collect();
     let shape = shape.ok_or_else(|| broken("its shape is none"))?;
     let (rows, rest) = match &shape[..] {
         [] => (1, &[][..]),
         [rows, rest @ ..] => (*rows, rest),
     };
     let each = rest.iter().try_fold(1_usize, |a, n| a.checked_mul(*n)).unwrap_or(usize::MAX);
-    let fields = fields(behind("descr").ok_or_else(|| broken("its head has no type"))?, name, each, !rest.is_empty())?;
+    let fields =
+        fields(behind("descr").ok_or_else(|| broken("its head has no type"))?, name, each, !rest.is_empty())?;
     let width: usize = fields.iter().map(|f| f.count).fold(0, usize::saturating_add);
     if width > MAX_COLUMNS || width == 0 || rows.saturating_mul(width) > MAX_NUMBERS {
-        return Err(TableError::new(format!("an array of {rows} rows and {width} columns"), format!("at most {MAX_COLUMNS} columns and {MAX_NUMBERS} numbers can be read")));
+        return Err(TableError::new(
+            format!("an array of {rows} rows and {width} columns"),
+            format!("at most {MAX_COLUMNS} columns and {MAX_NUMBERS} numbers can be read"),
+        ));
     }
     let size: usize = fields.iter().map(|f| f.count * f.size).sum();
     if data.len() < rows.saturating_mul(size) {
@@ -124,9 +134,8 @@ fn fortran(mut k: usize, shape: &[usize]) -> usize {
 /// The fields of a type: one, or those of a record.
 fn fields(descr: &str, name: &str, each: usize, is_list: bool) -> Result<Vec<Field>, TableError> {
     let unknown = |what: &str| TableError::new(format!("numbers of the type {what} are not read"), HINT);
-    let texts = |s: &str| -> Vec<String> {
-        s.split(['\'', '"']).skip(1).step_by(2).map(String::from).collect()
-    };
+    let texts =
+        |s: &str| -> Vec<String> { s.split(['\'', '"']).skip(1).step_by(2).map(String::from).collect() };
     if !descr.starts_with('[') {
         let first = texts(descr).first().cloned().unwrap_or_default();
         let (kind, size, is_big) = of(&first).ok_or_else(|| unknown(&first))?;
@@ -140,8 +149,17 @@ fn fields(descr: &str, name: &str, each: usize, is_list: bool) -> Result<Vec<Fie
         let [field, kind, ..] = &words[..] else { return Err(unknown("a record")) };
         let (kind, size, is_big) = of(kind).ok_or_else(|| unknown(kind))?;
         let shape = part.split('\u{1}').nth(1).and_then(|s| s.split(')').next());
-        let shape = shape.map(|s| s.split(',').filter_map(|n| n.trim().parse::<usize>().ok()).fold(1, usize::saturating_mul));
-        all.push(Field { name: field.clone(), kind, size, is_big, count: shape.unwrap_or(1), is_list: shape.is_some() });
+        let shape = shape.map(|s| {
+            s.split(',').filter_map(|n| n.trim().parse::<usize>().ok()).fold(1, usize::saturating_mul)
+        });
+        all.push(Field {
+            name: field.clone(),
+            kind,
+            size,
+            is_big,
+            count: shape.unwrap_or(1),
+            is_list: shape.is_some(),
+        });
     }
     if all.is_empty() { Err(unknown("a record")) } else { Ok(all) }
 }

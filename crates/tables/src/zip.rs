@@ -21,12 +21,14 @@ fn u64_at(b: &[u8], at: usize) -> Option<u64> {
 
 /// The names and contents of the files.
 pub fn files(b: &[u8]) -> Result<Vec<(String, Vec<u8>)>, TableError> {
-    let broken = |what: &str| TableError::new(format!("the archive is broken: {what}"), "was it copied whole?");
+    let broken =
+        |what: &str| TableError::new(format!("the archive is broken: {what}"), "was it copied whole?");
     // The end of the central directory stands within the last 64 KiB.
     let from = b.len().saturating_sub((1 << 16) + 22);
     let end = (from..b.len().saturating_sub(21)).rev().find(|&k| b[k..].starts_with(b"PK\x05\x06"));
     let end = end.ok_or_else(|| broken("it has no directory"))?;
-    let get = |x: Option<u64>| x.and_then(|x| usize::try_from(x).ok()).ok_or_else(|| broken("it ends too early"));
+    let get =
+        |x: Option<u64>| x.and_then(|x| usize::try_from(x).ok()).ok_or_else(|| broken("it ends too early"));
     let (count, mut at) = (get(u16_at(b, end + 10))?, get(u32_at(b, end + 16))?);
     let mut all = vec![];
     let mut unpacked = 0_u64;
@@ -74,7 +76,12 @@ pub fn files(b: &[u8]) -> Result<Vec<(String, Vec<u8>)>, TableError> {
                     .map_err(|e| broken(&format!("{name}: {e}")))?;
                 content
             }
-            _ => return Err(TableError::new(format!("{name} is packed in an unknown way"), "numpy.savez and savez_compressed are read")),
+            _ => {
+                return Err(TableError::new(
+                    format!("{name} is packed in an unknown way"),
+                    "numpy.savez and savez_compressed are read",
+                ));
+            }
         };
         all.push((name, content));
         at += 46 + lengths.iter().sum::<usize>();

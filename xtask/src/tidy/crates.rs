@@ -15,6 +15,8 @@ const ROBOT: &str = "denavit";
 const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
+const RECORDING: &str = "denavit-recording";
+const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
 const LOAD: &str = "denavit-load";
@@ -22,7 +24,7 @@ const JIT: &str = "denavit-jit";
 
 /// What a crate builds on, whatever it is for: none is a door, none is left of another without being named.
 const BELOW_DOORS: &[&str] =
-    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, REPORT, WIRE, LOAD];
+    &[SYMBOLIC, READING, PROGRAM, EMIT, ELIMINATION, ROBOT, CHECK, CERTIFICATE, GENERATE, RECORDING, TABLES, REPORT, WIRE, LOAD];
 
 /// Folders and packages, and the project's packages that each may use; tests may use more.
 const ALLOWED: &[(&str, &str, &[&str])] = &[
@@ -36,8 +38,10 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/check", CHECK, &[SYMBOLIC, READING, PROGRAM, ROBOT]),
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
+    ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
+    ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
-    ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, REPORT]),
+    ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, CHECK, GENERATE, RECORDING, REPORT]),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
@@ -54,6 +58,8 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             CHECK,
             CERTIFICATE,
             GENERATE,
+            RECORDING,
+            TABLES,
             REPORT,
             WIRE,
             LOAD,

@@ -15,6 +15,7 @@ mod ik;
 mod languages;
 mod linkages;
 mod motion;
+mod recordings;
 mod stream;
 mod trees;
 mod view;

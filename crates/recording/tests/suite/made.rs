@@ -54,9 +54,38 @@ const RATE: f64 = 30.0;
 
 /// The kinds of slips, after those of the method's study.
 pub const KINDS: &[&str] = &[
-    "all-deg", "one-deg", "norm100", "flip", "zero90", "zero180", "zerofit", "swap", "reverse", "gripper", "couple",
-    "gain", "mm", "euler-deg", "rotvec", "euler", "wxyz", "xyzw", "6drows", "inverse", "transposed", "base90", "base",
-    "tool-z", "tool", "lag", "jump", "stuck", "spikes", "mirror", "length", "variant",
+    "all-deg",
+    "one-deg",
+    "norm100",
+    "flip",
+    "zero90",
+    "zero180",
+    "zerofit",
+    "swap",
+    "reverse",
+    "gripper",
+    "couple",
+    "gain",
+    "mm",
+    "euler-deg",
+    "rotvec",
+    "euler",
+    "wxyz",
+    "xyzw",
+    "6drows",
+    "inverse",
+    "transposed",
+    "base90",
+    "base",
+    "tool-z",
+    "tool",
+    "lag",
+    "jump",
+    "stuck",
+    "spikes",
+    "mirror",
+    "length",
+    "variant",
 ];
 
 /// A recording with what is in it, each as a text.
@@ -82,7 +111,8 @@ fn exp(w: Vector<f64>) -> Rotation<f64> {
         return Rotation::identity();
     }
     let x = [w[0] / v, w[1] / v, w[2] / v, v];
-    denavit::geometry::orientation::rotation(denavit::geometry::OrientationSet::AxisAngle, &x).expect("an axis")
+    denavit::geometry::orientation::rotation(denavit::geometry::OrientationSet::AxisAngle, &x)
+        .expect("an axis")
 }
 
 /// The limits of motion: half a turn either way at most.
@@ -98,8 +128,9 @@ fn path(arm: &Arm, dice: &mut Dice, setting: &Setting) -> Vec<Vec<f64>> {
         let width = high - low;
         let middle = low + width * dice.between(0.35, 0.65);
         let most = if arm.turns[i] { dice.between(0.25, 0.9) } else { dice.between(0.05, 0.15) };
-        let waves: Vec<[f64; 3]> =
-            (0..4).map(|_| [dice.between(0.3, 1.0), dice.between(0.04, 0.3), dice.between(0.0, 6.3)]).collect();
+        let waves: Vec<[f64; 3]> = (0..4)
+            .map(|_| [dice.between(0.3, 1.0), dice.between(0.04, 0.3), dice.between(0.0, 6.3)])
+            .collect();
         let at = |t: f64| waves.iter().map(|[a, f, p]| a * (TAU * f * t + p).sin()).sum::<f64>();
         let shape: Vec<f64> = (0..setting.rows).map(|r| at(r as f64 / RATE)).collect();
         let largest = shape.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -365,4 +396,3 @@ fn assembled(columns: &[Vec<f64>], recorded: &[Transform<f64>], unit: f64, forma
     }
     Recording { columns: all }
 }
-

@@ -5,8 +5,18 @@ use denavit_recording::{Form, Held, HoldOptions, Slip, hold};
 use std::collections::BTreeMap;
 
 const ARMS: &[&str] = &[
-    "ur5", "ur5e", "staubli-rx90", "puma560", "abb-irb120", "ufactory-xarm6", "franka-panda", "kuka-iiwa-7",
-    "kinova-gen3", "stanford", "scara", "ur10",
+    "ur5",
+    "ur5e",
+    "staubli-rx90",
+    "puma560",
+    "abb-irb120",
+    "ufactory-xarm6",
+    "franka-panda",
+    "kuka-iiwa-7",
+    "kinova-gen3",
+    "stanford",
+    "scara",
+    "ur10",
 ];
 
 /// A whole study takes long; a test run takes a part of it.
@@ -108,7 +118,10 @@ fn run(cases: &[(&str, Vec<&str>, u64, Setting)]) -> BTreeMap<&'static str, usiz
         let (grade, found) = grade(&made, &held, own.joints());
         *tally.entry(grade).or_insert(0) += 1;
         if !["exact", "same", "tie"].contains(&grade) {
-            println!("{grade}: {arm} {slips:?} {seed} rho {:.2}: is {:?}, found {found:?}", held.rho, made.truth);
+            println!(
+                "{grade}: {arm} {slips:?} {seed} rho {:.2}: is {:?}, found {found:?}",
+                held.rho, made.truth
+            );
         }
     }
     println!("{tally:?}");
@@ -199,6 +212,7 @@ fn clean_recordings_are_clean() {
         }
     }
     let tally = run(&cases);
-    let alarms: usize = tally.iter().filter(|(g, _)| !["exact", "same", "tie"].contains(*g)).map(|g| g.1).sum();
+    let alarms: usize =
+        tally.iter().filter(|(g, _)| !["exact", "same", "tie"].contains(*g)).map(|g| g.1).sum();
     assert_eq!(alarms, 0, "{tally:?}");
 }
