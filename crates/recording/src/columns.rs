@@ -142,7 +142,7 @@ pub fn prepare(recording: &Recording, roles: &Roles) -> Result<Prepared, HoldErr
         position,
         said_length: roles.position.first().and_then(|&c| column(c).said),
         rotation,
-        rotation_degrees: roles.rotation.iter().any(|c| degrees(c)),
+        rotation_degrees: roles.rotation.iter().any(degrees),
         step,
         follows,
         good: (0..rows).filter(|&r| mask[r]).collect(),
@@ -183,17 +183,14 @@ fn times(recording: &Recording, roles: &Roles, mask: &[bool]) -> Times {
         Said::si,
     );
     let (mut back, mut gaps) = (vec![], vec![]);
-    for r in 1..rows {
-        if !follows[r] {
-            continue;
-        }
+    for (r, is_next) in follows.iter_mut().enumerate().filter(|f| *f.1) {
         let d = difference(r);
         if d <= 0.0 {
             back.push(r);
         } else if d > 5.0 * usual {
             gaps.push(r);
         }
-        follows[r] = d > 0.0 && d <= 5.0 * usual;
+        *is_next = d > 0.0 && d <= 5.0 * usual;
     }
     (Some(usual * unit), follows, back, gaps)
 }
