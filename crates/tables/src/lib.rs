@@ -1,4 +1,5 @@
-//! Tables of numbers out of the bytes of files: CSV in its dialects, JSON and JSON Lines, NumPy's NPY and NPZ.
+//! Tables of numbers out of the bytes of files: CSV in its dialects, JSON and JSON Lines, NumPy's NPY and NPZ, and Parquet with the
+//! feature `parquet`.
 //!
 //! What was taken for what is said in [`Table::remarks`]; what is no number is none in the column, with its place. A broken file is
 //! an error with its place and a hint. Nothing here panics on what it reads, or takes more memory than a few times its size.
@@ -6,6 +7,8 @@
 mod csv;
 mod json;
 mod npy;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod zip;
 
 pub use crate::csv::written;
@@ -49,6 +52,8 @@ pub enum Kind {
     Npy,
     /// Several of them.
     Npz,
+    /// Columns in Parquet.
+    Parquet,
 }
 
 impl Kind {
@@ -60,6 +65,7 @@ impl Kind {
             "json" | "jsonl" | "ndjson" => Kind::Json,
             "npy" => Kind::Npy,
             "npz" => Kind::Npz,
+            "parquet" => Kind::Parquet,
             _ => return None,
         })
     }
@@ -101,6 +107,13 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
         Kind::Json => json::read(bytes)?,
         Kind::Npy => npy::read(bytes)?,
         Kind::Npz => npy::read_all(bytes)?,
+        #[cfg(feature = "parquet")]
+        Kind::Parquet => parquet::read(bytes)?,
+        #[cfg(not(feature = "parquet"))]
+        Kind::Parquet => {
+            let hint = "build with the feature `parquet`, or convert the file to CSV";
+            return Err(TableError::new("files in Parquet are not read by this build", hint));
+        }
     };
     for column in &mut table.columns {
         if column.unit.is_none() {
@@ -114,6 +127,41 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
         ));
     }
     Ok(table)
+}
+
+impl Table {
+    /// Puts the rows of another table behind its own; a column that one of them has not is not a number there.
+    ///
+    /// # Errors
+    /// If both together are too large.
+    pub fn append(&mut self, other: Table) -> Result<(), TableError> {
+        let rows = |t: &Table| t.columns.first().map_or(0, |c| c.values.len());
+        let (own, more) = (rows(self), rows(&other));
+        for column in other.columns {
+            match self.columns.iter_mut().find(|c| c.name == column.name) {
+                Some(c) => c.values.extend(column.values),
+                None => {
+                    let mut values = vec![f64::NAN; own];
+                    values.extend(column.values);
+                    self.columns.push(Column { values, ..column });
+                }
+            }
+        }
+        self.columns.iter_mut().for_each(|c| c.values.resize(own + more, f64::NAN));
+        if self.columns.len() > MAX_COLUMNS || (own + more) * self.columns.len() > MAX_NUMBERS {
+            let hint = format!("at most {MAX_COLUMNS} columns and {MAX_NUMBERS} numbers can be read");
+            return Err(TableError::new(
+                format!("{} rows of {} columns", own + more, self.columns.len()),
+                hint,
+            ));
+        }
+        for remark in other.remarks {
+            if !self.remarks.contains(&remark) {
+                self.remarks.push(remark);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A name and its unit: in brackets, or behind the last underscore.

@@ -266,8 +266,8 @@ impl IkArguments {
 /// what is wrong, or is right under a condition only, 3 something could not be read or decided, or was not judged (and
 /// nothing is wrong).
 ///
-/// A recording (.csv, .tsv, .jsonl, .npy, .npz with columns of joints and poses) is held against the robot's motion: units, orders,
-/// signs, zeros, formats, frames and delays in which it is other than the model. Exit codes: 0 nothing to remark, 1 findings,
+/// A recording (.csv, .tsv, .jsonl, .npy, .npz, .parquet, or the folder of a data set of LeRobot, with columns of joints and poses) is
+/// held against the robot's motion: units, orders, signs, zeros, formats, frames and delays in which it is other than the model. Exit codes: 0 nothing to remark, 1 findings,
 /// 3 it cannot be read, is not understood, or does not move.
 #[derive(Args)]
 pub struct CheckArguments {

@@ -6,6 +6,7 @@ mod check;
 mod class;
 mod command_line;
 mod common;
+mod data_sets;
 mod doors;
 mod dynamics;
 mod dynamics_said;

@@ -6,14 +6,14 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// A folder of its own.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("denavit-recordings-{}-{name}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     folder
 }
 
 /// Rows of a UR5's motion: time, six joints, position and roll, pitch, yaw.
-fn rows(change: impl Fn(&mut Vec<f64>)) -> Vec<Vec<f64>> {
+pub fn rows(change: impl Fn(&mut Vec<f64>)) -> Vec<Vec<f64>> {
     let robot = Robot::numeric(&catalogue::robot("ur5").expect("it is there")).expect("numbers");
     let row = |k: u32| {
         let t = f64::from(k) / 25.0;
@@ -44,7 +44,7 @@ fn csv(head: &str, rows: &[Vec<f64>]) -> String {
     format!("{head}\n{}\n", rows.iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
-fn run(arguments: &[&str]) -> (i32, String, String) {
+pub fn run(arguments: &[&str]) -> (i32, String, String) {
     let output = fed(arguments, "");
     (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
 }

@@ -12,12 +12,13 @@ fn held(name: &str, recording: &Recording, roles: &Roles) -> Result<Vec<Slip>, H
 
 #[test]
 fn numbers_of_every_kind() {
-    let short = Setting { rows: 120, ..NOMINAL };
+    let short = Setting { rows: 60, ..NOMINAL };
     let made = make("ur5", &["xyzw"], 1, &short);
     let values =
         [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, 1e300, -1e300, 1e-300, 1.0, f64::MAX];
     for c in 0..made.recording.columns.len() {
-        for value in values {
+        // Each column takes some of them.
+        for value in (0..3).map(|k| values[(c + 3 * k) % values.len()]) {
             let mut recording = made.recording.clone();
             recording.columns[c].values.fill(value);
             let _ = held("ur5", &recording, &made.roles);
@@ -25,10 +26,10 @@ fn numbers_of_every_kind() {
     }
     // Single ones, anywhere.
     let mut dice = Dice::new(3);
-    for _ in 0..40 {
+    for _ in 0..15 {
         let mut recording = made.recording.clone();
         for _ in 0..1 + dice.below(60) {
-            let (c, r) = (dice.below(recording.columns.len()), dice.below(120));
+            let (c, r) = (dice.below(recording.columns.len()), dice.below(60));
             recording.columns[c].values[r] = dice.one_of(&values);
         }
         let _ = held("ur5", &recording, &made.roles);

@@ -3,6 +3,7 @@
 mod class;
 mod class_page;
 mod html;
+mod lerobot;
 mod markdown;
 mod marked;
 mod recording;

@@ -1,5 +1,6 @@
 //! `denavit check ROBOT data.csv`: recorded motion, held against the robot.
 
+use super::lerobot;
 use crate::arguments::CheckArguments;
 use crate::failure::{Failure, without_values};
 use crate::load;
@@ -22,20 +23,15 @@ const LEAST_ROWS: usize = 8;
 /// # Errors
 /// If the file can be nothing but a recording, and cannot be read.
 pub fn table_of(file: &Path) -> Result<Option<Table>, Failure> {
+    if lerobot::is_one(file) {
+        return lerobot::table(file).map(Some);
+    }
     let name = file.to_string_lossy();
     let Some(kind) = Kind::of(&name) else { return Ok(None) };
     if !file.is_file() && name != "-" {
         return Ok(None);
     }
-    let bytes =
-        denavit_load::bytes(&name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
-    if bytes.len() > MAX_BYTES {
-        let hint = "take a part of the file";
-        return Err(Failure::Input(format!(
-            "error: {name}: more than {} MiB\n  = hint: {hint}",
-            MAX_BYTES >> 20
-        )));
-    }
+    let bytes = bytes_of(&name)?;
     match denavit_tables::read(&bytes, kind) {
         // A table of a document may be written in CSV, too.
         Ok(table) if kind == Kind::Csv && is_small(&table) => Ok(None),
@@ -43,6 +39,18 @@ pub fn table_of(file: &Path) -> Result<Option<Table>, Failure> {
         Ok(table) => Ok(Some(table)),
         Err(e) => Err(Failure::Input(format!("error: {name}: {e}"))),
     }
+}
+
+/// The bytes of a file, bounded.
+pub fn bytes_of(name: &str) -> Result<Vec<u8>, Failure> {
+    let bytes =
+        denavit_load::bytes(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    if bytes.len() > MAX_BYTES {
+        let hint = "take a part of the file";
+        let most = MAX_BYTES >> 20;
+        return Err(Failure::Input(format!("error: {name}: more than {most} MiB\n  = hint: {hint}")));
+    }
+    Ok(bytes)
 }
 
 fn is_small(table: &Table) -> bool {
