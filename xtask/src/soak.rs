@@ -85,6 +85,8 @@ fn suites() -> Result<()> {
         ("denavit-generate", &["ikfast::", "conformance::"]),
         // Documents that nobody should write; those that take minutes each are in no other test.
         ("denavit-check", &["hostile::", "--include-ignored"]),
+        // Thousands of recordings with slips, alone and in pairs, and without any.
+        ("denavit-recording", &[]),
     ];
     for (package, tests) in soaks {
         let mut cargo = command("cargo");

@@ -24,6 +24,7 @@ pub mod parts;
 pub mod path;
 pub mod pose;
 pub mod program;
+pub mod recording;
 pub mod robot;
 pub mod singular;
 pub mod view;

@@ -16,6 +16,8 @@ const PARALLEL: &str = "denavit-parallel";
 const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
+const RECORDING: &str = "denavit-recording";
+const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
 const LOAD: &str = "denavit-load";
@@ -33,6 +35,8 @@ const BELOW_DOORS: &[&str] = &[
     CHECK,
     CERTIFICATE,
     GENERATE,
+    RECORDING,
+    TABLES,
     REPORT,
     WIRE,
     LOAD,
@@ -51,8 +55,14 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/check", CHECK, &[SYMBOLIC, READING, PROGRAM, ROBOT]),
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
+    ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
+    ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
-    ("crates/wire", WIRE, &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, REPORT]),
+    (
+        "crates/wire",
+        WIRE,
+        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, REPORT],
+    ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
@@ -70,6 +80,8 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             CHECK,
             CERTIFICATE,
             GENERATE,
+            RECORDING,
+            TABLES,
             REPORT,
             WIRE,
             LOAD,

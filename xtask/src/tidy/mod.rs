@@ -45,6 +45,7 @@ const SCIENCE: &[&str] = &[
     "crates/check/src/",
     "crates/certificate/src/",
     "crates/generate/src/",
+    "crates/recording/src/",
     "crates/report/src/",
     "crates/wire/src/",
 ];

@@ -5,6 +5,7 @@ mod dynamics;
 mod exercise;
 mod generate;
 mod path;
+mod recording;
 mod report;
 mod view;
 
@@ -18,6 +19,7 @@ pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
 pub use path::{PathArguments, PathFormat};
+pub use recording::RecordingArguments;
 pub use report::{LevelName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
 
@@ -265,6 +267,10 @@ impl IkArguments {
 /// Denavit-Hartenberg table that stands in the document. Exit codes: 0 all is right, 1 something is wrong, follows from
 /// what is wrong, or is right under a condition only, 3 something could not be read or decided, or was not judged (and
 /// nothing is wrong).
+///
+/// A recording (.csv, .tsv, .jsonl, .npy, .npz, .parquet, or the folder of a data set of LeRobot, with columns of joints and poses) is
+/// held against the robot's motion: units, orders, signs, zeros, formats, frames and delays in which it is other than the model. Exit codes: 0 nothing to remark, 1 findings,
+/// 3 it cannot be read, is not understood, or does not move.
 #[derive(Args)]
 pub struct CheckArguments {
     /// The robot, or a task: a rubric that names its robot; may be left out where the document holds its table
@@ -294,6 +300,9 @@ pub struct CheckArguments {
     /// Write the table of a class for a spreadsheet
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    /// Of a recording
+    #[command(flatten)]
+    pub recording: RecordingArguments,
     /// Print the list as Markdown
     #[arg(long, conflicts_with = "json")]
     pub markdown: bool,

@@ -1,10 +1,12 @@
-//! `denavit check`: formulas that somebody printed, held against the robot.
+//! `denavit check`: formulas that somebody printed, and motion that was recorded, held against the robot.
 
 mod class;
 mod class_page;
 mod html;
+mod lerobot;
 mod markdown;
 mod marked;
+mod recording;
 pub mod rubric;
 mod sheet;
 mod terminal;
@@ -54,6 +56,15 @@ pub fn run(mut arguments: CheckArguments) -> Result<(), Failure> {
     let robot = &arguments.robot.robot;
     if arguments.files.is_empty() && matches!(Kind::of(robot), Some(Kind::Robot | Kind::Bodies | Kind::Par)) {
         return Err(Failure::Usage(format!("{robot} is a robot: name the document behind it")));
+    }
+    if let [file] = &arguments.files[..]
+        && let Some(table) = recording::table_of(file)?
+    {
+        return recording::run(&arguments, &file.to_string_lossy(), table);
+    }
+    if arguments.recording.is_any() {
+        let options = "--time, --joints, --position, --rotation, --recipe and --fix";
+        return Err(Failure::Usage(format!("{options} are for one recording: denavit check ROBOT data.csv")));
     }
     let files = listed(&arguments.files)?;
     match (&files[..], &arguments.files[..]) {

@@ -1,0 +1,203 @@
+//! `denavit check ROBOT data.csv`: recorded motion, held against the robot.
+
+use super::lerobot;
+use crate::arguments::CheckArguments;
+use crate::failure::{Failure, without_values};
+use crate::load;
+use crate::terminal::note;
+use denavit_recording::words::{self, Names};
+use denavit_recording::{Arm, Column, Held, HoldOptions, Recording, Roles, Said, Slip, Unseen, fixed, hold};
+use denavit_tables::{Kind, Table};
+use denavit_wire::recording as wire;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+/// The most bytes that a recording may have.
+const MAX_BYTES: usize = 1 << 30;
+/// Fewer rows of numbers than this are no recording: a table in a document.
+const LEAST_ROWS: usize = 8;
+
+/// The table of a recording; nothing where the file is a document.
+///
+/// # Errors
+/// If the file can be nothing but a recording, and cannot be read.
+pub fn table_of(file: &Path) -> Result<Option<Table>, Failure> {
+    if lerobot::is_one(file) {
+        return lerobot::table(file).map(Some);
+    }
+    let name = file.to_string_lossy();
+    let Some(kind) = Kind::of(&name) else { return Ok(None) };
+    if !file.is_file() && name != "-" {
+        return Ok(None);
+    }
+    let bytes = bytes_of(&name)?;
+    match denavit_tables::read(&bytes, kind) {
+        // A table of a document may be written in CSV, too.
+        Ok(table) if kind == Kind::Csv && is_small(&table) => Ok(None),
+        Err(e) if kind == Kind::Csv && e.is_other => Ok(None),
+        Ok(table) => Ok(Some(table)),
+        Err(e) => Err(Failure::Input(format!("error: {name}: {e}"))),
+    }
+}
+
+/// The bytes of a file, bounded.
+pub fn bytes_of(name: &str) -> Result<Vec<u8>, Failure> {
+    let bytes =
+        denavit_load::bytes(name, MAX_BYTES).map_err(|e| Failure::Input(format!("error: {name}: {e}")))?;
+    if bytes.len() > MAX_BYTES {
+        let hint = "take a part of the file";
+        let most = MAX_BYTES >> 20;
+        return Err(Failure::Input(format!("error: {name}: more than {most} MiB\n  = hint: {hint}")));
+    }
+    Ok(bytes)
+}
+
+fn is_small(table: &Table) -> bool {
+    let numbers = |c: &&denavit_tables::Column| c.values.iter().any(|x| x.is_finite());
+    table.columns.first().is_none_or(|c| c.values.len() < LEAST_ROWS)
+        || table.columns.iter().filter(numbers).count() < 7
+}
+
+/// Holds a recording against the robot.
+///
+/// # Errors
+/// 1 if something was found, 3 if it is not understood or cannot be read.
+pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), Failure> {
+    let description = load::robot(&arguments.robot)?;
+    let robot = &arguments.robot.robot;
+    let arm =
+        Arm::new(robot, &description).map_err(|missing| without_values(&description, robot, &missing))?;
+    let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
+    let is_text = matches!(Kind::of(name), Some(Kind::Csv));
+    let (first_row, row) = (table.first_row, if is_text { "line" } else { "row" });
+    for remark in &table.remarks {
+        note(&format!("note: {name}: {remark}"));
+    }
+    let recording = Recording { columns: table.columns.into_iter().map(column).collect() };
+    let roles = Roles::find(&recording, &arm, &arguments.recording.told()).map_err(|e| failed(&e))?;
+    let held = hold(&arm, &recording, &roles, &HoldOptions::default()).map_err(|e| failed(&e))?;
+    let of = |c: &usize| recording.columns[*c].name.as_str();
+    let names = Names { arm: &arm, columns: roles.joints.iter().map(of).collect(), first_row, row };
+
+    let mut out = anstream::stdout();
+    if arguments.json {
+        let listed = |columns: &[usize]| columns.iter().map(|c| of(c).to_string()).collect();
+        let roles = wire::Roles {
+            joints: listed(&roles.joints),
+            position: listed(&roles.position),
+            rotation: listed(&roles.rotation),
+            time: roles.time.map(|c| of(&c).to_string()),
+        };
+        writeln!(
+            out,
+            "{}",
+            denavit_wire::text(&wire::Recorded::of(name, &description.name, &held, roles, &names))
+        )?;
+    } else {
+        let dash = if arguments.markdown { "- " } else { "  " };
+        writeln!(out, "{name} held against {}: {} rows", description.name, held.rows[0])?;
+        writeln!(out, "{dash}{}", columns_said(&recording, &roles))?;
+        for line in words::lines(&held, &names) {
+            writeln!(out, "{dash}{line}")?;
+        }
+    }
+    if let Some(file) = &arguments.recording.recipe {
+        write_whole(file, &held.recipe.to_string())?;
+    }
+    if let Some(file) = &arguments.recording.fix {
+        fix(file, &recording, &roles, &held, &arm)?;
+    }
+    verdict(&held)
+}
+
+/// Writes the recording with all of it undone.
+fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm) -> Result<(), Failure> {
+    if !held.is_understood {
+        return Err(Failure::Input("nothing is written: the recording is not understood".into()));
+    }
+    let (fixed, left) = fixed(recording, roles, &held.recipe, arm);
+    let unit = |s: Said| match s {
+        Said::Radians => "rad",
+        Said::Degrees => "deg",
+        Said::Metres => "m",
+        Said::Centimetres => "cm",
+        Said::Millimetres => "mm",
+        Said::Seconds => "s",
+        Said::Milliseconds => "ms",
+        Said::Microseconds => "us",
+        Said::Nanoseconds => "ns",
+    };
+    let column = |c: Column| denavit_tables::Column {
+        name: c.name,
+        unit: c.said.map(|s| unit(s).to_string()),
+        values: c.values,
+    };
+    let columns: Vec<_> = fixed.columns.into_iter().map(column).collect();
+    write_whole(file, &denavit_tables::written(&columns))?;
+    if !left.is_empty() {
+        note(&format!("note: {} rows are left out of {}", left.len(), file.display()));
+    }
+    let lengths = held.findings.iter().any(|f| matches!(f.slip, Slip::Length(_) | Slip::OtherArm(_)));
+    if lengths {
+        note(&format!("note: {}: the arm itself is another one, which columns cannot undo", file.display()));
+    }
+    Ok(())
+}
+
+/// Writes a file whole or not at all.
+fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
+    let failed = |e: std::io::Error| Failure::Input(format!("error: {}: {e}", file.display()));
+    let mut beside = file.as_os_str().to_owned();
+    beside.push(format!(".{}.part", std::process::id()));
+    fs::write(&beside, text).map_err(failed)?;
+    fs::rename(&beside, file).map_err(|e| {
+        let _ = fs::remove_file(&beside);
+        failed(e)
+    })
+}
+
+/// A column with what its header says.
+fn column(c: denavit_tables::Column) -> Column {
+    let said = c.unit.as_deref().and_then(Said::named);
+    // A unit that is none stays in the name.
+    let name = match (&c.unit, said) {
+        (Some(unit), None) => format!("{}[{unit}]", c.name),
+        _ => c.name,
+    };
+    Column { name, said, values: c.values }
+}
+
+/// Which columns are taken for what.
+fn columns_said(recording: &Recording, roles: &Roles) -> String {
+    let name = |c: &usize| recording.columns[*c].name.clone();
+    let list = |columns: &[usize]| {
+        let runs = columns.windows(2).all(|w| w[1] == w[0] + 1);
+        match columns {
+            [first, .., last] if runs && columns.len() > 4 => format!("{} … {}", name(first), name(last)),
+            _ => columns.iter().map(name).collect::<Vec<_>>().join(", "),
+        }
+    };
+    let time = roles.time.map_or(String::new(), |c| format!("; time {}", name(&c)));
+    format!(
+        "joints {}; position {}; orientation {}{time}",
+        list(&roles.joints),
+        list(&roles.position),
+        list(&roles.rotation)
+    )
+}
+
+/// The exit code.
+fn verdict(held: &Held) -> Result<(), Failure> {
+    if !held.is_understood {
+        return Err(Failure::Input("the recording is not understood".into()));
+    }
+    if held.unseen == [Unseen::Everything] {
+        return Err(Failure::Input("the recording does not move: nothing can be told".into()));
+    }
+    match held.findings.len() {
+        0 => Ok(()),
+        1 => Err(Failure::No("1 finding".into())),
+        n => Err(Failure::No(format!("{n} findings"))),
+    }
+}

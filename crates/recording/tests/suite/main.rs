@@ -1,0 +1,7 @@
+//! Recordings held against robots.
+
+mod hostile;
+mod made;
+mod motion;
+mod recipe;
+mod study;
