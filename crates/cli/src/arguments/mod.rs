@@ -66,7 +66,7 @@ pub enum Command {
     Report(ReportArguments),
     /// Make an exercise sheet with round numbers, its solution, and the task that `check` marks answers by
     Exercise(ExerciseArguments),
-    /// Hold formulas that somebody printed against the robot: proved, or wrong and where the slip is
+    /// Hold formulas that somebody printed against the robot: proved, or wrong and where the slip is; or recorded motion
     Check(CheckArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
     Generate(GenerateArguments),
@@ -276,7 +276,8 @@ pub struct CheckArguments {
     /// The robot, or a task: a rubric that names its robot; may be left out where the document holds its table
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The document (.md, .tex, .typ, .txt, .toml, .py, .m); several, or a folder, are those of a class
+    /// The document (.md, .tex, .typ, .txt, .toml, .py, .m); several, or a folder, are those of a class. Or a recording of joints and poses
+    /// (.csv, .tsv, .jsonl, .npy, .npz, .parquet, the folder of a data set of LeRobot)
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry
