@@ -3,7 +3,7 @@
 
 use super::CheckOptions;
 use super::lines::lines;
-use super::still_rows::still;
+use super::still_rows::turned;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{Convention, TableKind, TableOptions};
 use denavit_reading::code::Dialect;
@@ -26,10 +26,10 @@ enum Column {
 const COLUMNS: [Column; 4] = [Column::Theta, Column::D, Column::A, Column::Alpha];
 
 /// Rows with their places, and what else is known of them.
-pub(super) struct Listing {
+struct Listing {
     span: Range<usize>,
     /// θ, d, a, α.
-    pub(super) rows: Vec<[String; 4]>,
+    rows: Vec<[String; 4]>,
     convention: Option<Convention>,
     /// Angles that are numbers are in degrees.
     in_degrees: bool,
@@ -52,7 +52,12 @@ pub(super) fn tables_of(
         return printed;
     }
     let told = is_program.then(|| told_rows(bare)).flatten().and_then(|l| table(&l, reading));
-    if is_program && let Some(still) = still(bare, text).and_then(|l| table(&l, reading)) {
+    let still = || {
+        let listing = told_rows(bare).or_else(|| lists(text)).filter(|_| is_program)?;
+        let rows = turned(&listing.rows, text)?;
+        table(&Listing { rows, ..listing }, reading)
+    };
+    if let Some(still) = still() {
         return vec![still];
     }
     let (mut listed, unread): (Vec<PrintedTable>, Vec<_>) = told.into_iter().partition(|t| t.robot.is_ok());
@@ -166,7 +171,7 @@ fn order(line: &str) -> Option<Vec<Column>> {
 }
 
 /// Rows below words that tell the order, and rows `theta4, d = 0, a = 0, alpha = -90`.
-pub(super) fn told_rows(text: &str) -> Option<Listing> {
+fn told_rows(text: &str) -> Option<Listing> {
     let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let mut head: Option<Vec<Column>> = None;
     let mut rows: Vec<[String; 4]> = vec![];
@@ -468,7 +473,7 @@ fn clean(value: &str) -> String {
 }
 
 /// Rows of four in a list, in an order that words above it or the function of a row tell.
-pub(super) fn lists(text: &str) -> Option<Listing> {
+fn lists(text: &str) -> Option<Listing> {
     let lines: Vec<(Range<usize>, &str)> = lines(text).map(|l| (l.clone(), &text[l])).collect();
     let by_function = lines.iter().map(|l| l.1.trim()).find_map(|l| {
         let rest = l.strip_prefix("def ").or_else(|| l.strip_prefix("function "))?;

@@ -1,21 +1,19 @@
 //! Tables in programs in which nothing moves: `[0.0, d1, 0.0, pi/2]` beside `d1 = 0.15`, to whose θ the joints are added.
 
-use super::listing::{Listing, lists, told_rows};
 use std::collections::BTreeSet;
 
 /// Longer lines give nothing.
 const LONGEST: usize = 400;
 
-/// The rows of a program in which nothing moves, as it gives a number to each name in them: θ is what is added to the joint.
-/// Nothing where the words speak of joints that slide.
-pub(super) fn still(bare: &str, text: &str) -> Option<Listing> {
+/// The rows of a table in a program in which nothing moves, as it gives a number to each name in them, with the joints to whose θ these
+/// are added. Nothing where a row moves, or the words speak of joints that slide.
+pub(super) fn turned(rows: &[[String; 4]], text: &str) -> Option<Vec<[String; 4]>> {
     const SLIDES: [&str; 7] =
         ["prismatic", "slid", "linear axis", "linear joint", "telescop", "sigma", "schub"];
     let lower = text.to_lowercase();
     if SLIDES.iter().any(|w| lower.contains(w)) {
         return None;
     }
-    let mut listing = told_rows(bare).or_else(|| lists(text))?;
     let given = numbers_in_code(text);
     let is_still = |cell: &String| {
         let mut names = cell
@@ -26,7 +24,7 @@ pub(super) fn still(bare: &str, text: &str) -> Option<Listing> {
         })
     };
     let has_name = |row: &[String; 4]| row[1].contains(|c: char| c.is_alphabetic());
-    if !listing.rows.iter().flatten().all(is_still) || !listing.rows.iter().any(has_name) {
+    if !rows.iter().flatten().all(is_still) || !rows.iter().any(has_name) {
         return None;
     }
     let turned = |(k, mut row): (usize, [String; 4])| {
@@ -34,8 +32,7 @@ pub(super) fn still(bare: &str, text: &str) -> Option<Listing> {
         row[0] = if is_zero { format!("q{}", k + 1) } else { format!("q{} + {}", k + 1, row[0].trim()) };
         row
     };
-    listing.rows = listing.rows.into_iter().enumerate().map(turned).collect();
-    Some(listing)
+    Some(rows.iter().cloned().enumerate().map(turned).collect())
 }
 
 /// The names to which lines of a program give numbers: `d1 = 0.15`, `a2, a3 = 0.4, 0.35`.

@@ -290,7 +290,7 @@ fn sums_of_joints_are_found_before_their_parts() {
         let found = read(text, Format::Markdown, None, Some(Dialect::Python));
         ["c234", "q3", "q2"].map(|n| all(&found, n))
     };
-    assert_eq!(of(text), [(); 3].map(|()| vec![Standing::Equal]));
+    assert!(of(text).iter().all(|all| !all.is_empty() && all.iter().all(|s| *s == Standing::Equal)));
     // What rests on a wrong one is not at fault.
     let found = of(&text.replace("c234 = s6*r31 + c6*r32", "c234 = s6*r31 - c6*r32"));
     assert_eq!(found[0], [Standing::Wrong]);
