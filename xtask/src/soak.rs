@@ -74,7 +74,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 6] = [
+    let soaks: [(&str, &[&str]); 7] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),

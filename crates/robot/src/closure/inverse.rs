@@ -19,9 +19,10 @@ const SAME: f64 = 1e-6;
 
 /// The inverse problem of a linkage.
 pub struct ClosedInverse {
-    of: Loops,
-    towards: Towards,
     loops: Loops,
+    towards: Towards,
+    /// The linkage with its frame held where it is wanted.
+    held: Loops,
 }
 
 /// A configuration in which the frame is where it is wanted.
@@ -76,15 +77,15 @@ impl ClosedInverse {
     /// # Errors
     /// If a parameter has no value, or there is no such frame.
     pub fn new(linkage: &Linkage, tip: Option<&str>, wanted: Wanted) -> Result<Self, NoInverse> {
-        let of = Loops::new(linkage).map_err(NoInverse::Missing)?;
+        let loops = Loops::new(linkage).map_err(NoInverse::Missing)?;
         let towards = linkage.towards(tip, wanted).map_err(NoInverse::Frame)?;
-        let loops = Loops::new(&towards.linkage).map_err(NoInverse::Missing)?;
-        Ok(ClosedInverse { of, towards, loops })
+        let held = Loops::new(&towards.linkage).map_err(NoInverse::Missing)?;
+        Ok(ClosedInverse { loops, towards, held })
     }
 
     /// The linkage itself.
     pub fn loops(&self) -> &Loops {
-        &self.of
+        &self.loops
     }
 
     /// The frame that is asked about.
@@ -94,7 +95,7 @@ impl ClosedInverse {
 
     /// Whether it is one dyad after the other.
     pub fn is_closed_form(&self) -> bool {
-        self.loops.rest.is_empty()
+        self.held.rest.is_empty()
     }
 
     /// The configurations in which the frame has a pose, or its position.
@@ -110,8 +111,8 @@ impl ClosedInverse {
             answer.is_out_of_plane = true;
             return answer;
         };
-        let outcomes = self.loops.tried(&driven);
-        answer.is_complete &= outcomes.len() == self.loops.plan.count();
+        let outcomes = self.held.tried(&driven);
+        answer.is_complete &= outcomes.len() == self.held.plan.count();
         for (mode, outcome) in outcomes {
             match outcome {
                 Ok(found) => self.take(&mut answer, &driven, &found),
@@ -120,7 +121,7 @@ impl ClosedInverse {
             }
             if !is_closed_form {
                 for near in self.starts() {
-                    if let Ok(found) = self.loops.assembly_near(&driven, &mode, Some(&near)) {
+                    if let Ok(found) = self.held.assembly_near(&driven, &mode, Some(&near)) {
                         self.take(&mut answer, &driven, &found);
                     }
                 }
@@ -135,19 +136,19 @@ impl ClosedInverse {
         let mut any = |kinds: &[JointKind]| -> Vec<f64> {
             let one = |kind: &JointKind| match kind {
                 JointKind::Revolute => PI * (2.0 * random.unit() - 1.0),
-                JointKind::Prismatic => self.of.size * (2.0 * random.unit() - 1.0),
+                JointKind::Prismatic => self.loops.size * (2.0 * random.unit() - 1.0),
             };
             kinds.iter().map(one).collect()
         };
         let [driven, passive] = &self.towards.places;
-        let modes = self.of.plan.modes();
+        let modes = self.loops.plan.modes();
         (0..STARTS)
             .map(|k| {
-                let mut near = any(self.loops.passive());
-                let q = any(self.of.driven());
+                let mut near = any(self.held.passive());
+                let q = any(self.loops.driven());
                 driven.iter().zip(&q).for_each(|(&at, x)| near[at] = *x);
                 if let Some(mode) = modes.get(k % modes.len().max(1))
-                    && let Ok(found) = self.of.assembly(&q, mode)
+                    && let Ok(found) = self.loops.assembly(&q, mode)
                 {
                     passive.iter().zip(&found.passive).for_each(|(&at, x)| near[at] = *x);
                 }
@@ -166,23 +167,23 @@ impl ClosedInverse {
         let near = |a: &[f64], b: &[f64], kinds: &[JointKind]| {
             a.iter().zip(b).zip(kinds).all(|((a, b), kind)| match kind {
                 JointKind::Revolute => wrapped(a - b).abs() <= SAME,
-                JointKind::Prismatic => (a - b).abs() <= SAME * self.of.size,
+                JointKind::Prismatic => (a - b).abs() <= SAME * self.loops.size,
             })
         };
         let is_same = |s: &ClosedSolution| {
-            near(&s.q, &q, self.of.driven()) && near(&s.passive, &passive, self.of.passive())
+            near(&s.q, &q, self.loops.driven()) && near(&s.passive, &passive, self.loops.passive())
         };
         if answer.solutions.iter().any(is_same) {
             return;
         }
         let fits = |mode: &Mode| {
-            self.of
+            self.loops
                 .assembly_near(&q, mode, Some(&passive))
-                .is_ok_and(|a| near(&a.passive, &passive, self.of.passive()))
+                .is_ok_and(|a| near(&a.passive, &passive, self.loops.passive()))
         };
-        let mut fitting = self.of.plan.modes().into_iter().filter(fits);
+        let mut fitting = self.loops.plan.modes().into_iter().filter(fits);
         let mode = fitting.next().filter(|_| fitting.next().is_none());
-        let is_singular = self.loops.passive_rates(driven, &found.passive).is_err();
+        let is_singular = self.held.passive_rates(driven, &found.passive).is_err();
         answer.solutions.push(ClosedSolution { q, passive, mode, residual: found.residual, is_singular });
     }
 }

@@ -8,7 +8,7 @@
 use super::direct::{ROUNDING, factored};
 use super::energy::{kinetic_energy, potential_energy};
 use super::inertia::inertia_matrix;
-use super::model::{Dynamics, NoNumbers, numbers_of};
+use super::model::{Dynamics, NoNumbers, weights_of};
 use super::momentum::{Momentum, momentum};
 use super::newton_euler::{drive_torques, friction, gravity_torques, velocity_torques};
 use crate::closure::Loops;
@@ -85,9 +85,7 @@ impl ClosedDynamics {
         let loops = Loops::new(linkage).map_err(NoNumbers::Missing)?;
         let all = linkage.driven().into_iter().chain(linkage.passive());
         let all: Vec<Symbol> = all.map(|v| v.symbol).collect();
-        let (bodies, drives, gravity) = numbers_of(&d, &all)?;
-        let bodies = &bodies[..linkage.tree.rows.len()];
-        let tree = Dynamics::of_tree(&linkage.tree, &all, (bodies, drives, gravity), |s| d.value(s));
+        let tree = Dynamics::of_tree(&linkage.tree, &all, weights_of(&d, &all)?, |s| d.value(s));
         Ok(ClosedDynamics { loops, tree })
     }
 

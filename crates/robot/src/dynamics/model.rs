@@ -490,7 +490,7 @@ impl Dynamics<f64> {
         }
         let robot = Robot::numeric(d).map_err(NoNumbers::Missing)?;
         let variables: Vec<Symbol> = d.variables().iter().map(|v| v.symbol).collect();
-        let (bodies, drives, gravity) = numbers_of(d, &variables)?;
+        let Weights { bodies, drives, gravity } = weights_of(d, &variables)?;
         Ok(Dynamics::new(&robot, &bodies, drives, gravity))
     }
 
@@ -506,32 +506,39 @@ impl Dynamics<f64> {
         // What has no value is said.
         Robot::numeric(&d).map_err(NoNumbers::Missing)?;
         let q = by_number(&tree.rows);
-        let (mut bodies, drives, gravity) = numbers_of(&d, &q)?;
+        let mut weights = weights_of(&d, &q)?;
         if let Some((row, payload)) = payload {
-            bodies[row] = bodies[row] + payload;
+            weights.bodies[row] = weights.bodies[row] + payload;
         }
-        Ok(Dynamics::of_tree(tree, &q, (&bodies, drives, gravity), |s| d.value(s)))
+        Ok(Dynamics::of_tree(tree, &q, weights, |s| d.value(s)))
     }
 
-    /// The rows of a tree in numbers, moved by these variables, with bodies, drives and gravity.
+    /// The rows of a tree in numbers, moved by these variables. Bodies behind those of its rows are left.
     pub(super) fn of_tree(
         tree: &RowTree,
         variables: &[Symbol],
-        (bodies, drives, gravity): (&[Body<f64>], Vec<Drive<f64>>, Vector<f64>),
+        Weights { bodies, drives, gravity }: Weights,
         value: impl Fn(Symbol) -> Option<f64>,
     ) -> Self {
         let number = |e: Expr| e.eval(&value).unwrap_or(f64::NAN);
         let link = |r| link_of(Convention::Khalil, r, variables).in_numbers(number);
         let links: Vec<_> = tree.rows.iter().map(link).zip(tree.after.iter().copied()).collect();
-        Dynamics::of_rows(tree.base.map(number), &links, bodies, drives, gravity)
+        Dynamics::of_rows(tree.base.map(number), &links, &bodies[..links.len()], drives, gravity)
     }
 }
 
-/// The bodies of rows, the drives of these variables, and gravity, in numbers.
-pub(super) fn numbers_of(
-    d: &Description,
-    variables: &[Symbol],
-) -> Result<(Vec<Body<f64>>, Vec<Drive<f64>>, Vector<f64>), NoNumbers> {
+/// What rows weigh, in numbers.
+pub(super) struct Weights {
+    /// The bodies of the rows, each in its frame.
+    pub bodies: Vec<Body<f64>>,
+    /// The drives of the variables.
+    pub drives: Vec<Drive<f64>>,
+    /// The acceleration of gravity in the base.
+    pub gravity: Vector<f64>,
+}
+
+/// What the rows weigh, with the drives of these variables.
+pub(super) fn weights_of(d: &Description, variables: &[Symbol]) -> Result<Weights, NoNumbers> {
     let mut missing: Vec<String> = vec![];
     let mut number = |e: Expr| {
         e.eval(|s| d.value(s)).unwrap_or_else(|s| {
@@ -551,7 +558,7 @@ pub(super) fn numbers_of(
     let gravity = d.gravity_or_default().map(&mut number);
     d.no_negative_mass()?;
     if missing.is_empty() {
-        Ok((bodies, drives, gravity))
+        Ok(Weights { bodies, drives, gravity })
     } else {
         Err(NoNumbers::Missing(MissingValue { parameters: missing }))
     }
