@@ -130,8 +130,7 @@ fn frame_of_load(text: &str) -> Option<usize> {
         let behind = behind[1..].trim_start_matches(['}', ' ']);
         let letter = LOOKS.iter().find_map(|l| behind.strip_prefix(l)).unwrap_or(behind);
         let rest = letter.trim_start_matches(['{', ' ']).strip_prefix(['F', 'f']);
-        // A power stands behind what is multiplied: `a^2 F`.
-        let is_left = text[..at].trim_end_matches(' ').ends_with("{}") || !is_factor(&text[..at]);
+        let is_left = may_be_left(&text[..at]);
         let is_name = rest.is_some_and(|r| !r.starts_with(|c: char| c.is_alphanumeric()));
         if is_left && is_name {
             match found {
@@ -140,16 +139,19 @@ fn frame_of_load(text: &str) -> Option<usize> {
             }
         }
     }
-    // Frame 0 may be the base.
-    found.map(|k| k as usize).filter(|k| *k > 0)
+    found.map(|k| k as usize)
 }
 
 /// Commands that change the looks of a letter.
 const LOOKS: [&str; 5] = ["\\mathbf", "\\boldsymbol", "\\vec", "\\bm", "\\mathrm"];
 
-/// True for a text that ends with something that may have a power.
-fn is_factor(text: &str) -> bool {
-    text.ends_with(|c: char| c.is_alphanumeric() || matches!(c, ')' | ']' | '}'))
+/// True for a text behind which an upper left index may stand; behind what is multiplied it is a power: `a^2 F`, `|d|^2 F`.
+fn may_be_left(text: &str) -> bool {
+    let bare = text.trim_end_matches(' ');
+    bare.is_empty()
+        || bare.ends_with("{}")
+        || bare.ends_with("\\,")
+        || bare.ends_with(['$', '=', '(', '[', ',', '+', '-', '`', '\n', '~'])
 }
 
 /// True if a torque is said to be something and a letter: `τ_2 = … + M`.
@@ -236,9 +238,13 @@ pub(super) fn torques(subject: &Subject, text: &str, habits: &Habits, add: &mut 
     if load.iter().all(|e| e.is_zero()) {
         return;
     }
-    let told = frame_of_load(text).and_then(|k| subject.placed(k));
-    let in_hand = || Some(subject.pose()).filter(|_| habits.load_in_hand);
-    if let Some(turn) = told.or_else(in_hand).map(|x| x.rotation) {
+    let frame = match frame_of_load(text) {
+        // Frame 0 is the base.
+        Some(0) => None,
+        Some(k) => subject.placed(k),
+        None => Some(subject.pose()).filter(|_| habits.load_in_hand),
+    };
+    if let Some(turn) = frame.map(|x| x.rotation) {
         let [force, moment] = [0, 3].map(|k| (turn * Vector([load[k], load[k + 1], load[k + 2]])).0);
         load = std::array::from_fn(|k| if k < 3 { force[k] } else { moment[k - 3] });
     }
@@ -271,6 +277,8 @@ mod tests {
             ("$^{2}\\mathbf{f}$ and $a^3 F$", Some(2)),
             ("{}^3F and {}^0F", None),
             ("J^T F and m^2 f_x", None),
+            ("its work is $\\|d\\|^2 F$ and $|x|^2 F$", None),
+            ("the force ${}^0F$", Some(0)),
         ] {
             assert_eq!(frame_of_load(text), frame, "{text}");
         }

@@ -106,8 +106,12 @@ pub(super) fn values_in_tables(text: &str) -> Option<String> {
 /// A row that gives a length its value, as a statement of the same length.
 fn value(line: &str) -> Option<Vec<u8>> {
     let cuts: Vec<usize> = line.match_indices('|').map(|c| c.0).collect();
-    // A table of a robot has more columns.
-    let (&[first, second, third], true) = (cuts.first_chunk::<3>()?, cuts.len() <= 4) else { return None };
+    let &[first, second, third] = cuts.first_chunk::<3>()?;
+    // A table of a robot has numbers in more columns.
+    let is_figure = |cell: &str| cell.trim_matches(['`', '$', ' ']).parse::<f64>().is_ok();
+    if cuts[2..].windows(2).any(|c| is_figure(&line[c[0] + 1..c[1]])) {
+        return None;
+    }
     let bare = |s: &str| s.trim().trim_matches(['`', '$', '*', ' ']).to_string();
     let (name, number) = (bare(&line[first + 1..second]), bare(&line[second + 1..third]));
     let letters = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_');

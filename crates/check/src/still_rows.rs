@@ -23,6 +23,14 @@ pub(super) fn turned(rows: &[[String; 4]], text: &str) -> Option<Vec<[String; 4]
             matches!(w, "pi" | "np" | "math" | "numpy" | "deg" | "radians" | "deg2rad") || given.contains(w)
         })
     };
+    // A θ with a name in it may be the joint's own value.
+    let is_told = |row: &[String; 4]| {
+        let names = row[0].split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        names.into_iter().any(|w| given.contains(w))
+    };
+    if rows.iter().any(is_told) {
+        return None;
+    }
     let has_name = |row: &[String; 4]| row[1].contains(|c: char| c.is_alphabetic());
     if !rows.iter().flatten().all(is_still) || !rows.iter().any(has_name) {
         return None;

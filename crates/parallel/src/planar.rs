@@ -124,8 +124,9 @@ impl Planar {
         let b = self.platform.map(|z| Rectangle::point(Complex::new(z[0], z[1])));
         let p = self.sextic(&c, &b);
         let reversed: Vec<Interval> = p.polynomial.iter().rev().copied().collect();
-        let (near, far) =
-            (isolate(&p.polynomial, -SPLIT, SPLIT), isolate(&reversed, -1.0 / SPLIT, 1.0 / SPLIT));
+        // Rounded up, so that nothing lies between the two.
+        let most = (1.0 / SPLIT).next_up();
+        let (near, far) = (isolate(&p.polynomial, -SPLIT, SPLIT), isolate(&reversed, -most, most));
         let mut all = PlanarForward {
             assemblies: vec![],
             is_complete: near.doubtful.is_empty() && far.doubtful.is_empty(),

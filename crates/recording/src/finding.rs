@@ -58,6 +58,8 @@ pub enum Slip {
     Stuck(Stuck),
     /// The pose of single rows is far from those before and behind.
     Spikes(Vec<usize>),
+    /// The hand is far off in these rows, of so many that were looked at, and not in the others.
+    Apart(Vec<usize>, usize),
     /// Numbers are missing.
     Missing(Vec<usize>),
     /// The time goes back, or stands still.

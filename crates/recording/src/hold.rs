@@ -275,6 +275,19 @@ fn off(search: &Search, reading: &Reading, rows: &[usize]) -> Off {
     Off { turn: middle(turns), shift: middle(shifts) }
 }
 
+/// Rows at which the hand is this much further off than at most of them, and by so many units of what is expected.
+const FAR: f64 = 8.0;
+const EXPECTED: f64 = 4.0;
+
+/// The rows that are far off although others are not.
+fn apart(search: &Search, reading: &Reading, rows: &[usize]) -> Vec<usize> {
+    let recorded = |r: &usize| search.data.recorded(reading.format, *r).is_some();
+    let rows: Vec<usize> = rows.iter().copied().filter(recorded).collect();
+    let sizes = crate::fit::sizes(&residuals(search, reading, &rows));
+    let limit = (FAR * crate::columns::median(sizes.clone())).max(EXPECTED);
+    rows.into_iter().zip(sizes).filter(|(_, size)| *size > limit).map(|(r, _)| r).collect()
+}
+
 /// Residuals at rows.
 fn residuals(search: &Search, reading: &Reading, rows: &[usize]) -> Vec<[f64; 6]> {
     let data = search.data;
@@ -394,6 +407,17 @@ fn said<'a>(
     if is_understood {
         findings.extend(stuck(search, &best).into_iter().map(|s| bare(Slip::Stuck(s))));
     }
+    if is_understood {
+        let apart = apart(search, &best, &judged);
+        let is_known = |r: &usize| {
+            columns.spikes.contains(r)
+                || findings.iter().any(|f| matches!(&f.slip, Slip::Stuck(s) if (s.from..s.to).contains(r)))
+        };
+        let rows: Vec<usize> = apart.into_iter().filter(|r| !is_known(r)).collect();
+        if rows.len() >= 2 {
+            findings.push(bare(Slip::Apart(rows, judged.len())));
+        }
+    }
     if columns.spikes.len() >= 2 {
         findings.push(bare(Slip::Spikes(columns.spikes.clone())));
     } else if !columns.spikes.is_empty() {
@@ -410,7 +434,12 @@ fn said<'a>(
         }
     }
     let rivals = if is_understood { rivals(data, found, &best, arm) } else { vec![] };
-    let is_computed = is_understood && left_over.turn < 2e-6 && left_over.shift < 2e-6;
+    let has_own_lengths = !best.fit.extras.iter().any(|e| matches!(e.0, Extra::Length(..)));
+    let is_computed = is_understood
+        && std::ptr::eq(best.arm, arm)
+        && has_own_lengths
+        && left_over.turn < 2e-6
+        && left_over.shift < 2e-6;
     let unseen = if is_understood { unseen(search, &best, strokes) } else { vec![] };
     let recipe = Recipe::of(recording, roles, data, &best, &findings, left_over);
     Held {

@@ -52,7 +52,7 @@ pub fn finding(finding: &Finding, held: &Held, names: &Names) -> String {
 fn remark(finding: &Finding, held: &Held, names: &Names) -> String {
     let text = slip(&finding.slip, held, names);
     match finding.slip {
-        Slip::Missing(_) | Slip::Gaps(_) | Slip::Spikes(_) => text,
+        Slip::Missing(_) | Slip::Gaps(_) | Slip::Spikes(_) | Slip::Apart(..) => text,
         _ => format!("small enough to be a matter of calibration: {text}"),
     }
 }
@@ -126,6 +126,11 @@ pub fn slip(slip: &Slip, held: &Held, names: &Names) -> String {
         Slip::Spikes(rows) => {
             format!("the pose jumps away and back in {}: {}", count(rows.len(), names.row), list(rows, names.first_row))
         }
+        Slip::Apart(rows, of) => format!(
+            "the hand is far off in {} of {of} that were looked at: {}",
+            count(rows.len(), names.row),
+            list(rows, names.first_row)
+        ),
         Slip::Missing(rows) => {
             format!("a number is missing in {}: {}", count(rows.len(), names.row), list(rows, names.first_row))
         }
@@ -194,22 +199,24 @@ pub fn left_over(held: &Held) -> String {
     let rest = off(&held.left_over);
     if held.is_computed {
         return format!(
-            "left over: {rest}; the pose was computed from these joints with this table, not measured"
+            "left over: {rest}, as near as rounding: the pose was computed from these joints with this table, not measured"
         );
     }
     if !held.is_understood {
         return format!("left over by the best reading: {rest}");
     }
     let (noise, is_noise) = match &held.noise {
-        None => ("the rows are too far apart for the noise to be seen".into(), true),
+        None => ("the rows are too far apart for the noise to be seen".into(), false),
         Some(noise) => {
             let is_noise = held.left_over.shift < 1.5 * noise.shift + 1e-9
                 && held.left_over.turn < 1.5 * noise.turn + 1e-9;
             (format!("the noise of the columns alone is {}", off(noise)), is_noise)
         }
     };
-    match (held.findings.is_empty(), is_noise) {
+    let is_clean = held.findings.is_empty() && held.remarks.is_empty() && held.rivals.is_empty();
+    match (is_clean, is_noise) {
         (false, _) => format!("left over: {rest}; {noise}"),
+        (true, false) if held.noise.is_none() => format!("no finding: {rest}; {noise}"),
         (true, true) => format!("nothing to remark: {rest}; {noise}"),
         (true, false) => {
             format!("nothing to remark but what an arm shows that was not calibrated: {rest}; {noise}")

@@ -121,10 +121,9 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
         }
     }
     if table.columns.is_empty() {
-        return Err(TableError::new(
-            "there is no column of numbers",
-            "a recording has a column for each joint",
-        ));
+        let hint = "a recording has a column for each joint";
+        let why = TableError::new("there is no column of numbers", hint);
+        return Err(TableError { is_other: kind == Kind::Csv, ..why });
     }
     Ok(table)
 }

@@ -64,7 +64,7 @@ fn read_rows(bytes: &[u8]) -> Result<Table, TableError> {
                             rows + 1
                         ));
                     }
-                    for (i, x) in list.elements().iter().take(known).enumerate() {
+                    for (i, x) in list.elements().iter().take(known.min(MAX_COLUMNS + 1)).enumerate() {
                         put(&format!("{name}[{i}]"), number(x).unwrap_or(f64::NAN));
                     }
                 }

@@ -57,12 +57,15 @@ pub fn files(b: &[u8]) -> Result<Vec<(String, Vec<u8>)>, TableError> {
             extra += 4 + length;
         }
         let local = get(Some(local))?;
-        let data = local + 30 + get(u16_at(b, local + 26))? + get(u16_at(b, local + 28))?;
+        let at_local = |k: usize| local.checked_add(k).and_then(|at| u16_at(b, at));
+        let (name_length, extra_length) = (get(at_local(26))?, get(at_local(28))?);
+        let data = local.checked_add(30 + name_length + extra_length);
+        let data = data.ok_or_else(|| broken("it ends too early"))?;
         let packed = get(Some(packed))?;
         let name = String::from_utf8_lossy(name).into_owned();
         let part = data.checked_add(packed).and_then(|end| b.get(data..end));
         let part = part.ok_or_else(|| broken(&format!("{name} is cut off")))?;
-        unpacked += size;
+        unpacked = unpacked.saturating_add(size.max(part.len() as u64));
         if unpacked > MOST {
             return Err(TableError::new(format!("{name} is too large"), "take a part of the file"));
         }

@@ -138,7 +138,7 @@ impl<'a> Placed<'a> {
     pub fn of(
         (robot, kind): (&'a str, &'static str),
         q: &'a [f64],
-        found: &Assemblies,
+        (found, is_complete): (&Assemblies, bool),
         within_limits: Option<bool>,
         orientation: impl Fn(&denavit::geometry::Transform<f64>) -> Option<Orientation>,
     ) -> Self {
@@ -156,7 +156,7 @@ impl<'a> Placed<'a> {
         };
         Placed {
             assemblies: found.all.iter().map(one).collect(),
-            complete: found.is_complete(),
+            complete: is_complete,
             kind,
             lost,
             most: found.most(),

@@ -142,6 +142,7 @@ fn parts(slip: &Slip) -> (&'static str, Option<usize>, Option<Fitted>, Option<Ve
         Slip::Spikes(rows) => ("spikes", None, None, Some(rows.clone())),
         Slip::Missing(rows) => ("missing", None, None, Some(rows.clone())),
         Slip::TimeBack(rows) => ("time", None, None, Some(rows.clone())),
+        Slip::Apart(rows, _) => ("apart", None, None, Some(rows.clone())),
         Slip::Gaps(rows) => ("gaps", None, None, Some(rows.clone())),
         Slip::Unlike(u) => ("does not follow", Some(u.joint), None, None),
         Slip::NotUnderstood => ("not understood", None, None, None),

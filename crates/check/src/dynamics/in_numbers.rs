@@ -40,8 +40,7 @@ pub(super) fn judged(
         let start = right.span.end - skip(source).len();
         let Some((value, length)) = number(&text[start..right.span.end]) else { continue };
         let digits = start..start + length;
-        // A unit may stand behind.
-        let is_lone = !text[digits.end..right.span.end].contains(['+', '-', '*', '(', '\\', '_']);
+        let is_lone = is_unit(&text[digits.end..right.span.end]);
         let printed = attempt.read.pieces.iter().find(|p| {
             p.place.is_none()
                 && p.candidates.len() == 1
@@ -82,6 +81,14 @@ pub(super) fn judged(
         });
     }
     claims
+}
+
+/// True for a unit alone, or nothing.
+fn is_unit(behind: &str) -> bool {
+    const LOOKS: [&str; 6] = ["\\mathrm", "\\text", "\\,", "\\;", "{", "}"];
+    let bare = LOOKS.iter().fold(behind.to_string(), |b, look| b.replace(look, ""));
+    let bare = bare.trim_matches([' ', '$', '~', ',', '.', ';']);
+    bare.is_empty() || bare.starts_with(['N', 'k']) && !bare.contains(['/', '+', '-', '='])
 }
 
 /// True for a list of other numbers alone: names, signs and digits, and no words.

@@ -120,8 +120,33 @@ fn is_massless(lower: &str) -> bool {
         "link", "arm", "rod", "bar", "glied", "stäbe", "segment", "bras", "corps", "eslab", "elo", "bracci",
         "membr", "barra",
     ];
-    const NOT: [&str; 5] = ["not massless", "motor", "cable", "spring", "rope"];
-    let says = |s: &str| LINKS.iter().any(|w| s.contains(w)) && !NOT.iter().any(|w| s.contains(w));
+    // Where each link has a mass at its end, a lone letter is that, and no load.
+    const NOT: [&str; 21] = [
+        "not massless",
+        "motor",
+        "cable",
+        "spring",
+        "rope",
+        "each",
+        "every",
+        "both",
+        "equal mass",
+        "ends",
+        "masses at",
+        "joints",
+        "jede",
+        "beide",
+        "enden",
+        "chaque",
+        "chacun",
+        "extrémités",
+        "cada",
+        "ogni",
+        "ciascun",
+    ];
+    let has_link =
+        |s: &str| s.split(|c: char| !c.is_alphabetic()).any(|w| LINKS.iter().any(|link| w.starts_with(link)));
+    let says = |s: &str| has_link(s) && !NOT.iter().any(|w| s.contains(w));
     sentences(lower, &WITHOUT).any(says)
 }
 

@@ -520,9 +520,12 @@ impl Walk<'_> {
             let plain = crate::custom::plain(name);
             ["vx", "vy", "vz", "Vx", "Vy", "Vz"].contains(&&*plain).then_some(plain)
         };
-        let last = self.assertions.last().and_then(|a| velocity(&a.name));
-        let is_next =
-            |name: &str| velocity(name).zip(last.as_ref()).is_some_and(|(own, before)| own != *before);
+        let before: Vec<String> =
+            self.assertions.iter().rev().take(2).filter_map(|a| velocity(&a.name)).collect();
+        let is_next = |name: &str| {
+            let own = velocity(name).filter(|own| own.ends_with('z'));
+            own.is_some_and(|own| before.len() == 2 && before[0] != before[1] && !before.contains(&own))
+        };
         if matches!(names[..], [name] if is_next(name)) {
             return false;
         }

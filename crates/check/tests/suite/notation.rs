@@ -210,6 +210,50 @@ fn rows_of_a_program_in_which_nothing_moves_turn() {
 }
 
 #[test]
+fn a_mass_at_the_end_of_each_link_is_no_load() {
+    let of = |words: &str, first: &str| {
+        let text = format!(
+            "{PLANAR}{words} Gravity acts along -y.\n\n$$M_{{11}} = {first} + m l_2^2 + 2 m l_1 l_2 c_2$$\n\n\
+             $$M_{{12}} = m l_2^2 + m l_1 l_2 c_2$$\n\n$$M_{{22}} = m l_2^2$$\n"
+        );
+        all(&read(&text, Format::Markdown, None, None), "M_{11}")
+    };
+    for words in [
+        "Each link is a massless rod with a point mass $m$ at its end.",
+        "Both links are massless, with masses $m$ at their ends.",
+        "All links have equal mass $m$ at their ends; there is no mass below the base.",
+    ] {
+        assert_eq!(of(words, "2 m l_1^2"), [Standing::Equal], "{words}");
+    }
+}
+
+#[test]
+fn a_fraction_in_numbers_is_no_number() {
+    let text = format!(
+        "{PLANAR}All mass of a link is at its far end, $m_1$ = 1 kg at the distance $l_1$, $m_2$ = 1 kg at the distance $l_2$, with \
+         $l_1$ = 0.5 m and $l_2$ = 0.5 m. Gravity acts along -y.\n\n$$M_{{11}} = (m_1 + m_2) l_1^2 + m_2 l_2^2 + 2 m_2 l_1 l_2 c_2$$\n\n\
+         $$M_{{12}} = m_2 l_2^2 + m_2 l_1 l_2 c_2$$\n\n$$M_{{22}} = m_2 l_2^2$$\n\n\
+         At $q_1 = 0$ and $q_2 = 0$ we have $M_{{11}} = 5/4$ and $M_{{22}} = 0.25$.\n"
+    );
+    let found = read(&text, Format::Markdown, None, None);
+    assert!(found.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", all(&found, "M_{11}"));
+}
+
+#[test]
+fn fields_are_not_what_a_function_calls_so_itself() {
+    let text = "struct Arm { double d1, a2, a3; };\nvoid fk(const Arm *p, double q1, double q2, double q3, double pos[3]) {\n\
+        double a2 = p->a2 * cos(q2);\ndouble a3 = p->a3 * cos(q2 + q3);\npos[0] = cos(q1) * (a2 + a3);\npos[1] = sin(q1) * (a2 + a3);\n\
+        pos[2] = p->d1 + p->a2 * sin(q2) + p->a3 * sin(q2 + q3);\n}\n\
+        double both(const Arm *left, const Arm *right, double q1, double q2, double q3) {\n\
+        double x = cos(q1) * (left->a2 * cos(q2) + right->a3 * cos(q2 + q3));\nreturn x;\n}\n";
+    let found = read(text, Format::Markdown, Some(&robot("articulated-3r")), Some(Dialect::C));
+    for claim in &found.claims {
+        assert_ne!(claim.standing(), Standing::Wrong, "{}", claim.name);
+    }
+    assert!(!all(&found, "x").contains(&Standing::Equal));
+}
+
+#[test]
 fn structures_and_matrices_of_cpp() {
     let of = |entry: &str| {
         let text = format!(

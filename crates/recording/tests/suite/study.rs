@@ -52,6 +52,7 @@ fn name(slip: &Slip) -> String {
         Slip::Spikes(_) => "spikes".into(),
         Slip::Missing(_) => "missing".into(),
         Slip::TimeBack(_) => "back".into(),
+        Slip::Apart(..) => "apart".into(),
         Slip::Gaps(_) => "gaps".into(),
         Slip::Unlike(u) => format!("unlike {}", u.joint),
         Slip::NotUnderstood => "not understood".into(),

@@ -108,22 +108,23 @@ impl ClosedInverse {
             is_out_of_plane: false,
         };
         let Some(driven) = self.towards.driven(pose) else {
-            answer.is_out_of_plane = true;
+            (answer.is_out_of_plane, answer.is_complete) = (true, true);
             return answer;
         };
         let outcomes = self.held.tried(&driven);
         answer.is_complete &= outcomes.len() == self.held.plan.count();
+        let starts = if is_closed_form { vec![] } else { self.starts() };
         for (mode, outcome) in outcomes {
             match outcome {
                 Ok(found) => self.take(&mut answer, &driven, &found),
-                Err(Open::Indeterminate { .. } | Open::NotFound) => answer.is_complete = false,
+                Err(Open::Indeterminate { .. } | Open::NotFound | Open::Undecided { .. }) => {
+                    answer.is_complete = false;
+                }
                 Err(_) => {}
             }
-            if !is_closed_form {
-                for near in self.starts() {
-                    if let Ok(found) = self.held.assembly_near(&driven, &mode, Some(&near)) {
-                        self.take(&mut answer, &driven, &found);
-                    }
+            for near in &starts {
+                if let Ok(found) = self.held.assembly_near(&driven, &mode, Some(near)) {
+                    self.take(&mut answer, &driven, &found);
                 }
             }
         }
@@ -173,7 +174,9 @@ impl ClosedInverse {
         let is_same = |s: &ClosedSolution| {
             near(&s.q, &q, self.loops.driven()) && near(&s.passive, &passive, self.loops.passive())
         };
-        if answer.solutions.iter().any(is_same) {
+        // By dyads different signs give the same only where these meet.
+        let may_be_same = found.is_numeric || !found.flat.is_empty();
+        if may_be_same && answer.solutions.iter().any(is_same) {
             return;
         }
         let fits = |mode: &Mode| {
@@ -183,7 +186,7 @@ impl ClosedInverse {
         };
         let mut fitting = self.loops.plan.modes().into_iter().filter(fits);
         let mode = fitting.next().filter(|_| fitting.next().is_none());
-        let is_singular = self.held.passive_rates(driven, &found.passive).is_err();
+        let is_singular = !found.flat.is_empty() || self.held.passive_rates(driven, &found.passive).is_err();
         answer.solutions.push(ClosedSolution { q, passive, mode, residual: found.residual, is_singular });
     }
 }

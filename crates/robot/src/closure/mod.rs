@@ -77,6 +77,11 @@ pub enum Open {
         /// The closure.
         closure: usize,
     },
+    /// A loop before it meets its other mode, where its angle is not known well enough to say whether this one closes.
+    Undecided {
+        /// The closure.
+        closure: usize,
+    },
     /// No descent ended where the loops close.
     NotFound,
     /// What is solved closes, and this loop, of which nothing is unknown any more, does not.
@@ -225,8 +230,11 @@ impl Loops {
         }
         let mut flat = vec![];
         for (step, &sign) in self.steps.iter().zip(&mode.0) {
-            if step.solve(&mut all, sign)? == Met::Meets {
-                flat.push(step.closure);
+            match step.solve(&mut all, sign) {
+                Ok(Met::Meets) => flat.push(step.closure),
+                Ok(Met::Apart) => {}
+                Err(_) if !flat.is_empty() => return Err(Open::Undecided { closure: step.closure }),
+                Err(why) => return Err(why),
             }
         }
         if !self.rest.is_empty() {
@@ -234,7 +242,10 @@ impl Loops {
         }
         let apart = self.apart(&all);
         if let Some(closure) = self.first_apart(&all) {
-            return Err(Open::Contradicts { closure, gap: apart[closure] });
+            return Err(match flat.is_empty() {
+                true => Open::Contradicts { closure, gap: apart[closure] },
+                false => Open::Undecided { closure },
+            });
         }
         let residual = apart.into_iter().fold(0.0, f64::max);
         let is_numeric = !self.rest.is_empty();

@@ -13,6 +13,7 @@ use crate::random::Random;
 use denavit_program::{Dependency, Domain, Residue};
 use denavit_symbolic::{Expr, Rational, Symbol, readable};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 
 /// Values of the lengths from which coefficients are sought, and those on which they are tried.
 const SOUGHT: usize = 2;
@@ -41,7 +42,7 @@ pub(super) fn without_dependent(formulas: &Formulas, order: &[Symbol], model: Ba
     }
     // What something was added to is a grouping, and called so.
     let mut names: FxHashMap<Symbol, Expr> = FxHashMap::default();
-    let grown: FxHashSet<usize> = found.iter().flat_map(|(_, terms)| terms.iter().map(|t| t.0)).collect();
+    let grown: BTreeSet<usize> = found.iter().flat_map(|(_, terms)| terms.iter().map(|t| t.0)).collect();
     for k in grown {
         let p = &mut parameters[k];
         if !p.is_grouped {
@@ -176,6 +177,8 @@ fn dimension(p: &BaseParameter, links: &[Grouped]) -> Option<i32> {
     })
 }
 
+/// So many lengths are looked at.
+const MAX_LENGTHS: usize = 12;
 /// Roots that sines and cosines of usual angles have.
 const ROOTS: [i64; 4] = [1, 2, 3, 6];
 
@@ -193,6 +196,9 @@ fn coefficient(
         && (degree == 0 || number.is_zero() || lengths.is_empty())
     {
         return Some(number.into());
+    }
+    if lengths.len() > MAX_LENGTHS {
+        return None;
     }
     // Numbers have no dimension that could be told.
     let powers = if lengths.is_empty() { vec![vec![]] } else { products(lengths.len(), degree) };
@@ -225,8 +231,9 @@ fn coefficient(
             // x·one + y·two at the first two values.
             let det = one[0].mul(&two[1]).sub(&one[1].mul(&two[0]));
             let (v, w) = (&values[0].1, &values[1].1);
-            let Some(x) = v.mul(&two[1]).sub(&w.mul(&two[0])).div(&det).lifted() else { continue };
-            let Some(y) = one[0].mul(w).sub(&one[1].mul(v)).div(&det).lifted() else { continue };
+            let over = Residue::new(1).div(&det);
+            let Some(x) = v.mul(&two[1]).sub(&w.mul(&two[0])).mul(&over).lifted() else { continue };
+            let Some(y) = one[0].mul(w).sub(&one[1].mul(v)).mul(&over).lifted() else { continue };
             let [a, b] = [&x, &y].map(Residue::rational);
             let holds = |k: usize| {
                 let sum = a.mul(&one[k]).add(&b.mul(&two[k]));

@@ -38,7 +38,13 @@ pub fn answers() -> Vec<String> {
         let q = &solutions[0].q;
         let found = robot.forward(q);
         let orientation = |x: &Transform<f64>| Some(extract(&x.rotation, OrientationSet::Rpy).into());
-        all.push(text(&Placed::of((&parallel.name, kind), q, &found, Some(true), orientation)));
+        all.push(text(&Placed::of(
+            (&parallel.name, kind),
+            q,
+            (&found, found.is_complete()),
+            Some(true),
+            orientation,
+        )));
         all.push(text(&Solved {
             kind,
             left_out: Some(0),

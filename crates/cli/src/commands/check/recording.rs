@@ -102,20 +102,18 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
             writeln!(out, "{dash}{line}")?;
         }
     }
-    if let Some(file) = &arguments.recording.recipe {
+    let is_told = held.is_understood && held.unseen != [Unseen::Everything];
+    if let Some(file) = arguments.recording.recipe.as_ref().filter(|_| is_told) {
         write_whole(file, &held.recipe.to_string())?;
     }
-    if let Some(file) = &arguments.recording.fix {
+    if let Some(file) = arguments.recording.fix.as_ref().filter(|_| is_told) {
         fix(file, &recording, &roles, &held, &arm)?;
     }
-    verdict(&held)
+    verdict(&held, arguments.recording.recipe.is_some() || arguments.recording.fix.is_some())
 }
 
 /// Writes the recording with all of it undone.
 fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm) -> Result<(), Failure> {
-    if !held.is_understood {
-        return Err(Failure::Input("nothing is written: the recording is not understood".into()));
-    }
     let (fixed, left) = fixed(recording, roles, &held.recipe, arm);
     let unit = |s: Said| match s {
         Said::Radians => "rad",
@@ -188,12 +186,13 @@ fn columns_said(recording: &Recording, roles: &Roles) -> String {
 }
 
 /// The exit code.
-fn verdict(held: &Held) -> Result<(), Failure> {
+fn verdict(held: &Held, is_asked_for: bool) -> Result<(), Failure> {
+    let nothing = if is_asked_for { ", and nothing is written" } else { "" };
     if !held.is_understood {
-        return Err(Failure::Input("the recording is not understood".into()));
+        return Err(Failure::Input(format!("the recording is not understood{nothing}")));
     }
     if held.unseen == [Unseen::Everything] {
-        return Err(Failure::Input("the recording does not move: nothing can be told".into()));
+        return Err(Failure::Input(format!("the recording does not move: nothing can be told{nothing}")));
     }
     match held.findings.len() {
         0 => Ok(()),

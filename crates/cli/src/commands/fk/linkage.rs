@@ -174,7 +174,7 @@ pub fn assemblies(loops: &Loops, mode: Option<&str>, q: &[f64]) -> Result<Found,
     for (mode, outcome) in outcomes {
         match outcome {
             Ok(assembly) => all.push(assembly),
-            Err(why @ (Open::Indeterminate { .. } | Open::NotFound)) => {
+            Err(why @ (Open::Indeterminate { .. } | Open::NotFound | Open::Undecided { .. })) => {
                 note(&format!("note: mode {mode}: {}", open_words(loops, &why)));
                 undecided.push(mode);
             }
@@ -208,6 +208,10 @@ fn open_words(loops: &Loops, why: &Open) -> String {
         }
         Open::Indeterminate { closure } => format!(
             "`{}` is closed here by infinitely many configurations, or by none: the two places between which its rods stand coincide",
+            name(*closure)
+        ),
+        Open::Undecided { closure } => format!(
+            "modes of another loop meet here, where it is not known well enough whether `{}` closes",
             name(*closure)
         ),
         Open::NotFound => "Newton's method found no configuration in which all loops close".into(),

@@ -2,17 +2,18 @@
 
 use super::pose;
 use crate::arguments::IkArguments;
-use crate::commands::fk::linkage::{assemblies, at, configuration, limited};
+use crate::commands::fk::linkage::{assemblies, at, configuration};
 use crate::commands::fk::plural;
 use crate::failure::{Failure, without_values};
 use crate::terminal::{Align, HEADING, note, styled, table};
 use denavit::closure::{ClosedAnswer, ClosedInverse, ClosedSolution, NoInverse};
+use denavit::description::Linkage;
 use denavit::description::linkage::Wanted;
-use denavit::description::{JointKind, Linkage};
 use denavit::inverse::Goal;
 use denavit::quantity::reading;
+use denavit::space::JointSpace;
+use denavit_symbolic::Symbol;
 use denavit_wire::linkage::Reached;
-use std::f64::consts::TAU;
 use std::io::Write;
 
 /// Solves a pose.
@@ -28,6 +29,7 @@ pub fn run(arguments: &IkArguments, linkage: &Linkage) -> Result<(), Failure> {
     };
     let given = [
         (wanted.is_none(), "--goal"),
+        (arguments.robot.mode.is_some() && arguments.q.is_none(), "--mode with --pose"),
         (arguments.input.is_some(), "--input"),
         (arguments.given.is_some(), "--given"),
         (arguments.near.is_some(), "--near"),
@@ -71,16 +73,16 @@ pub fn run(arguments: &IkArguments, linkage: &Linkage) -> Result<(), Failure> {
         }
     };
     let answer = inverse.solve(&pose);
+    let rows = linkage.all_rows();
+    let (space, variables) = (JointSpace::without_lengths(&rows), rows.variables());
     for (k, s) in answer.solutions.iter().enumerate() {
-        let all = s.q.iter().chain(&s.passive).zip(limited(linkage));
-        // Whole turns away counts, too.
-        let is_within = |x: f64, kind: JointKind, [a, b]: [f64; 2]| match kind {
-            JointKind::Revolute => [-1.0, 0.0, 1.0].iter().any(|k| (a..=b).contains(&(x + k * TAU))),
-            JointKind::Prismatic => (a..=b).contains(&x),
+        let all = s.q.iter().chain(&s.passive).zip(linkage.driven().into_iter().chain(linkage.passive()));
+        let is_beyond = |x: f64, of: Symbol| {
+            let joint = variables.iter().position(|v| v.symbol == of);
+            joint.is_some_and(|j| space.turns(j, x).is_none())
         };
-        let beyond =
-            all.filter(|(x, (_, kind, limits))| limits.is_some_and(|ends| !is_within(**x, *kind, ends)));
-        let names: Vec<String> = beyond.map(|(_, (name, ..))| name).collect();
+        let names: Vec<String> =
+            all.filter(|(x, v)| is_beyond(**x, v.symbol)).map(|(_, v)| v.symbol.name().to_string()).collect();
         if !names.is_empty() {
             note(&format!("warning: configuration {}: {} outside the limits", k + 1, names.join(", ")));
         }
@@ -91,7 +93,7 @@ pub fn run(arguments: &IkArguments, linkage: &Linkage) -> Result<(), Failure> {
     if arguments.json {
         let answer = Reached::of(name, inverse.tip(), word, &pose, &answer);
         writeln!(out, "{}", denavit_wire::text(&answer))?;
-    } else {
+    } else if !answer.is_out_of_plane {
         write!(out, "{}", text(linkage, inverse.tip(), word, &answer))?;
     }
     if !answer.solutions.is_empty() {

@@ -32,11 +32,14 @@ pub fn run(arguments: &FkArguments, parallel: &Parallel) -> Result<(), Failure> 
     let set = set.map_err(|e| Failure::Usage(format!("--orientation: {e}")))?;
     let at = numbers.configuration(arguments.q.as_deref())?;
     numbers.warn_of_limits(&at.q);
-    let found = chosen(numbers.robot.forward(&at.q), arguments.robot.mode.as_deref())?;
+    let whole = numbers.robot.forward(&at.q);
+    // Of all poses, whichever are printed.
+    let (words, is_complete) = (said(&whole), whole.is_complete());
+    let found = chosen(whole, arguments.robot.mode.as_deref())?;
     if arguments.json {
         let orientation = |pose: &Transform<f64>| set.map(|s| extract(&pose.rotation, s).into());
         let who = (parallel.name.as_str(), parallel.family.kind());
-        let answer = Placed::of(who, &at.q, &found, numbers.within(&at.q), orientation);
+        let answer = Placed::of(who, &at.q, (&found, is_complete), numbers.within(&at.q), orientation);
         writeln!(out, "{}", denavit_wire::text(&answer))?;
     } else {
         let title = format!("{} at {}: ", styled(&parallel.name, HEADING), numbers.at(&at.q));
@@ -55,9 +58,9 @@ pub fn run(arguments: &FkArguments, parallel: &Parallel) -> Result<(), Failure> 
             let entries: Vec<Vec<String>> = one.pose.matrix().iter().map(row).collect();
             write!(out, "\n{}", matrix("T(base → platform) = ", &entries, Align::Right))?;
         }
-        writeln!(out, "\n  {}", said(&found))?;
+        writeln!(out, "\n  {words}")?;
     }
-    match (found.all.is_empty(), found.is_complete()) {
+    match (found.all.is_empty(), is_complete) {
         (true, true) => Err(Failure::No("no pose has these drives".into())),
         (true, false) => Err(Failure::No("no pose was found for these drives".into())),
         _ => Ok(()),

@@ -78,6 +78,8 @@ pub fn run(arguments: &IkArguments, parallel: &Parallel) -> Result<(), Failure> 
     }
     let left_out = arguments.limits.then_some(before - all.len());
     let status = match (&why, all.is_empty()) {
+        // A leg that turns about where it is held has any angle.
+        (Some(w), _) if w.metres == 0.0 => "infinitely many",
         (Some(_), _) => "unreachable",
         (None, true) => "outside the limits",
         (None, false) => "solved",
@@ -97,7 +99,7 @@ pub fn run(arguments: &IkArguments, parallel: &Parallel) -> Result<(), Failure> 
             schema: Schema,
             solutions: all.iter().map(drives).collect(),
             status,
-            unreached: why.map(|w| Unreached { by: w.metres, leg: w.leg + 1 }),
+            unreached: why.filter(|w| w.metres > 0.0).map(|w| Unreached { by: w.metres, leg: w.leg + 1 }),
         };
         writeln!(out, "{}", denavit_wire::text(&answer))?;
     } else if !all.is_empty() {

@@ -43,7 +43,7 @@ impl Writer {
                 let is_pointer = (start..k).any(|i| matches!(self.op(i), "*" | "&")) || self.op(k + 1) == "[";
                 let is_structure = self.fields.contains_key(&name);
                 let is_written = !is_const && is_pointer && self.is_written(&name, body, end);
-                if self.is_read_by_fields(k, body, end) {
+                if self.read.is_empty() && self.is_read_by_fields(k, [from, to], [body, end]) {
                     self.read.insert(name);
                 } else if is_structure && is_pointer {
                     let fields = self.fields.get(&name).cloned().unwrap_or_default();
@@ -68,14 +68,29 @@ impl Writer {
     }
 
     /// True for an argument of a type with a name of its own of which a function reads fields, and nothing else.
-    fn is_read_by_fields(&self, k: usize, body: usize, end: usize) -> bool {
+    fn is_read_by_fields(&self, k: usize, [from, to]: [usize; 2], [body, end]: [usize; 2]) -> bool {
         let type_at = k - usize::from(matches!(self.op(k - 1), "*" | "&"));
         let is_own = type_at > 0 && self.name(type_at - 1).is_some_and(|w| !super::TYPES.contains(&w));
         let Some(name) = self.name(k) else { return false };
         let mut uses = (body..end).filter(|&i| self.name(i) == Some(name) && !self.is_field(i)).peekable();
+        // A name that the function has elsewhere is another value, unless it is given that of the field, and no other.
+        let is_field_itself = |i: usize, f: &str| {
+            self.op(i + 1) == "="
+                && self.name(i + 2) == Some(name)
+                && matches!(self.op(i + 3), "." | "->")
+                && self.name(i + 4) == Some(f)
+                && matches!(self.op(i + 5), ";" | ",")
+        };
+        let is_free = |f: &str| {
+            let is_it = |i: &usize| self.name(*i) == Some(f) && !self.is_field(*i);
+            let is_given = |i: usize| matches!(self.op(i + 1), "=" | "+=" | "-=" | "*=" | "/=");
+            !(from..to).any(|i| is_it(&i))
+                && (body..end).find(is_it).is_none_or(|i| is_field_itself(i, f))
+                && (body..end).filter(is_it).filter(|&i| is_given(i)).count() <= 1
+        };
         let is_read = |i: usize| {
             matches!(self.op(i + 1), "." | "->")
-                && self.name(i + 2).is_some_and(|f| !matches!(f, "x" | "y" | "z"))
+                && self.name(i + 2).is_some_and(|f| !matches!(f, "x" | "y" | "z") && is_free(f))
                 && !matches!(self.op(i + 3), "=" | "(" | "[" | "." | "->")
         };
         is_own && uses.peek().is_some() && uses.all(is_read)
