@@ -217,3 +217,21 @@ fn clean_recordings_are_clean() {
         tally.iter().filter(|(g, _)| !["exact", "same", "tie"].contains(*g)).map(|g| g.1).sum();
     assert_eq!(alarms, 0, "{tally:?}");
 }
+
+/// A hand that is elsewhere in a part of the rows is said to be, wherever these stand.
+#[test]
+fn rows_in_which_the_hand_is_elsewhere_are_said() {
+    for (k, from) in [(0, 0), (1, 300), (2, 720)] {
+        let mut made = make("ur5", &[], 400 + k, &NOMINAL);
+        let z = made.roles.position[2];
+        made.recording.columns[z].values[from..from + 180].iter_mut().for_each(|x| *x += 0.1);
+        let arm = crate::made::arm("ur5");
+        let held = hold(&arm, &made.recording, &made.roles, &HoldOptions::default()).expect("read");
+        let rows = held.findings.iter().find_map(|f| match &f.slip {
+            Slip::Apart(rows, _) => Some(rows.clone()),
+            _ => None,
+        });
+        let rows = rows.unwrap_or_else(|| panic!("{:?}", held.findings));
+        assert!(rows.len() > 100 && rows.iter().all(|r| (from..from + 180).contains(r)), "{rows:?}");
+    }
+}

@@ -130,3 +130,25 @@ fn broken_archives() {
     let complex = npy("'<c16'", "False", "(1, 1)", &[0; 16]);
     assert!(read(&complex, Kind::Npy).expect_err("complex").what.contains("<c16"));
 }
+
+/// Sizes of 64 bits that no file has, and entries that say they are small and are not.
+#[test]
+fn sizes_that_no_archive_has() {
+    for places in [[u64::MAX; 3], [0, 0, u64::MAX - 20], [u64::MAX, 1, 0], [7, u64::MAX, 3]] {
+        let mut entry = b"PK\x01\x02".to_vec();
+        entry.resize(46, 0);
+        for at in [20, 24, 42] {
+            entry[at..at + 4].copy_from_slice(&u32::MAX.to_le_bytes());
+        }
+        entry[28..30].copy_from_slice(&1_u16.to_le_bytes());
+        entry[30..32].copy_from_slice(&28_u16.to_le_bytes());
+        entry.push(b'a');
+        entry.extend([1, 0, 24, 0]);
+        entry.extend(places.iter().flat_map(|x| x.to_le_bytes()));
+        let mut end = b"PK\x05\x06".to_vec();
+        end.resize(22, 0);
+        end[10] = 1;
+        let bytes = [entry, end].concat();
+        assert!(read(&bytes, Kind::Npz).is_err(), "{places:?}");
+    }
+}
