@@ -73,13 +73,20 @@ function share(bytes, channels, expected) {
   return count / (bytes.length / channels);
 }
 
-/** The canvas of the scene once it stands still. */
+/** The canvas of the scene once it stands still: drawn finely, nothing new for a while, and what was drawn is seen, twice the same. */
 export async function pictureOf(page) {
   const canvas = page.locator("canvas.scene-canvas");
-  let before = -1;
+  let [before, seen] = [-1, null];
   for (;;) {
-    const frames = await page.evaluate(() => new Promise((resolve) => setTimeout(() => resolve(window.denavit.frames), 260)));
-    if (frames === before) return canvas.screenshot();
+    const { frames, isStill } = await page.evaluate(async () => {
+      await new Promise((resolve) => setTimeout(resolve, 260));
+      return { frames: window.denavit.frames, isStill: window.denavit.isStill };
+    });
+    if (isStill && frames === before) {
+      const now = await canvas.screenshot();
+      if (seen?.equals(now)) return now;
+      seen = now;
+    }
     before = frames;
   }
 }

@@ -3,6 +3,8 @@
 export interface Measures {
   /** Frames rendered since the page was opened. */
   frames: number;
+  /** Whether the picture stands still, drawn as finely as it ever is. */
+  isStill: boolean;
   /** What the last frame took in this thread, milliseconds, from preparing to the last call of WebGL. */
   renderMs: number;
   /** Milliseconds from the frame before to the last one, while the picture was moving; 0 after it stood still. */
@@ -40,6 +42,7 @@ declare global {
 
 export const measures: Measures = {
   frames: 0,
+  isStill: false,
   renderMs: 0,
   intervalMs: 0,
   calls: 0,

@@ -153,6 +153,7 @@ export class Stage {
   }
 
   invalidate(): void {
+    measures.isStill = false;
     if (this.#pending || this.isLost.peek()) return;
     this.#pending = requestAnimationFrame((now) => {
       this.#pending = 0;
@@ -215,9 +216,12 @@ export class Stage {
   /** The picture stands still: once more, finely. */
   #settle(): void {
     measures.intervalMs = 0;
-    if (this.isLost.peek() || this.#pending || this.#finest === this.#moving) return;
-    this.#apply(this.#finest);
-    this.#draw();
+    if (this.isLost.peek() || this.#pending) return;
+    if (this.#finest !== this.#moving) {
+      this.#apply(this.#finest);
+      this.#draw();
+    }
+    measures.isStill = true;
   }
 
   /** The picture as it is, at twice its size. */
