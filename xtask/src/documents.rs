@@ -86,6 +86,11 @@ fn typst(folder: &Path) -> Result<()> {
             &["--language", language, "--conventions", "standard,craig,khalil"],
         )?;
     }
+    for (k, robot) in ROBOTS.iter().enumerate() {
+        let pace = if k % 2 == 0 { "--slides" } else { "--slides=whole" };
+        let language = OTHERS.get(k).unwrap_or(&"en");
+        report(robot, &folder.join(format!("{robot}-slides.typ")), &[pace, "--language", language])?;
+    }
     succeed(command(python).arg("xtask/pages/look.py").arg(folder))
 }
 
@@ -98,13 +103,21 @@ fn pages(folder: &Path) -> Result<()> {
     }
     fs::create_dir_all(folder)?;
     let mut look = command("node");
-    look.arg("xtask/pages/look.mjs").arg(chromium);
+    look.arg("xtask/pages/look.mjs").arg(&chromium);
     for (k, robot) in ROBOTS.iter().enumerate() {
         let page = folder.join(format!("{robot}.html"));
         report(robot, &page, &["--language", OTHERS.get(k).unwrap_or(&"en")])?;
         look.arg(page);
     }
-    succeed(&mut look)
+    succeed(&mut look)?;
+    let mut turn = command("node");
+    turn.arg("xtask/pages/turn.mjs").arg(chromium);
+    for (k, robot) in ROBOTS[..SEVERAL].iter().enumerate() {
+        let page = folder.join(format!("{robot}-slides.html"));
+        report(robot, &page, &["--slides", "--language", OTHERS.get(k).unwrap_or(&"en")])?;
+        turn.arg(page);
+    }
+    succeed(&mut turn)
 }
 
 /// The browser, installed if it is missing.

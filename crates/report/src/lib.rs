@@ -24,5 +24,5 @@ pub use exercise::{
     ArmOptions, Difficulty, Exercise, ExerciseOptions, MAX_COUNT, NoExercise, exercise, exercise_of_arm,
     moodle, notebook, prairielearn,
 };
-pub use sections::{Errata, Level, ReportOptions, Topic, report, reports};
+pub use sections::{Errata, Level, ReportOptions, Topic, compared, report, reports};
 pub use words::ExerciseKind;

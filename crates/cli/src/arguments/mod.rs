@@ -20,7 +20,7 @@ pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
 pub use path::{PathArguments, PathFormat};
 pub use recording::RecordingArguments;
-pub use report::{LevelName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
+pub use report::{LevelName, PaceName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
 
 /// Everything about a robot arm from its Denavit-Hartenberg table: exact, proved, in formulas and in numbers.
@@ -85,7 +85,7 @@ pub struct RobotsArguments {
 }
 
 /// The robot that a command is about.
-#[derive(Args, Clone)]
+#[derive(Args, Clone, Default)]
 pub struct RobotArguments {
     /// A catalogue name, or the path of a robot file (.toml, .par), URDF, xacro, MJCF, table (.md, .csv, .tex, .typ) or program that makes a robot
     /// (.m, .py); - reads a robot file, URDF, MJCF or table from standard input

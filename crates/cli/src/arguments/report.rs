@@ -14,6 +14,9 @@ pub struct ReportArguments {
     /// The file; its ending says the format: .pdf, .html, .typ (Typst), .tex (LaTeX) or .md (- for standard output)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// Another robot to compare it with (can be repeated): both at a glance, in pictures, by their tables and workspaces
+    #[arg(long, value_name = "ROBOT", conflicts_with = "q")]
+    pub beside: Vec<String>,
     /// The format, if the ending does not say it
     #[arg(long, value_enum)]
     pub format: Option<ReportFormat>,
@@ -26,6 +29,9 @@ pub struct ReportArguments {
     /// How much it says
     #[arg(long, value_enum, default_value = "full")]
     pub level: LevelName,
+    /// As slides for a talk, a formula or a paragraph at a time or `whole`; as .html, .typ or .pdf
+    #[arg(long, value_enum, value_name = "PACE", num_args = 0..=1, require_equals = true, default_missing_value = "steps")]
+    pub slides: Option<PaceName>,
     /// Only these sections, as in `--sections table,forward,inverse`
     #[arg(long, value_enum, value_delimiter = ',', value_name = "SECTIONS")]
     pub sections: Vec<SectionName>,
@@ -53,6 +59,15 @@ pub enum ReportFormat {
     Latex,
     /// Markdown with a folder of figures
     Markdown,
+}
+
+/// How slides go on.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PaceName {
+    /// A formula or a paragraph at a time
+    Steps,
+    /// Whole slides
+    Whole,
 }
 
 /// How much a report says.

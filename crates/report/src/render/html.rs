@@ -19,34 +19,39 @@ const LOOK: &str = include_str!("../../assets/page.css");
 
 /// The page.
 pub fn page(document: &Document) -> String {
-    page_with(document, &base64::engine::general_purpose::STANDARD.encode(FONT))
+    page_with(document, &font())
+}
+
+/// The font of formulas, WOFF2 in base64.
+pub(super) fn font() -> String {
+    base64::engine::general_purpose::STANDARD.encode(FONT)
+}
+
+/// All that stands before the body.
+pub(super) fn head(document: &Document, font: &str, more: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"generator\" content=\"denavit {}\"/>\n<title>{}</title>\n<style>\n\
+         @font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n\
+         {LOOK}{}{more}</style>\n</head>\n",
+        document.language.words().code(),
+        env!("CARGO_PKG_VERSION"),
+        escaped(&document.title),
+        style()
+    )
 }
 
 /// The page with the font of its formulas (WOFF2, base64) put in by whoever has it already.
 pub fn page_with(document: &Document, font: &str) -> String {
-    let language = document.language.words().code();
     let title = escaped(&document.title);
     let author = document.author.as_deref();
     let author = author.map_or_else(String::new, |a| format!("<p class=\"author\">{}</p>\n", escaped(a)));
-    let mut writer = Writer {
-        out: String::new(),
-        contents: vec![],
-        figures: 0,
-        tables: 0,
-        said: document.language.words(),
-    };
+    let mut writer = Writer::new(document.language.words());
     for section in &document.spelled() {
         writer.section(section);
     }
-    let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-         <meta name=\"generator\" content=\"denavit {}\"/>\n<title>{title}</title>\n<style>\n\
-         @font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n\
-         {LOOK}{}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{author}",
-        env!("CARGO_PKG_VERSION"),
-        style()
-    );
+    let mut out = head(document, font, "") + &format!("<body>\n<main>\n<h1>{title}</h1>\n{author}");
     if writer.contents.len() > 3 {
         let _ = writeln!(out, "<nav aria-label=\"{}\">\n<ol>", document.language.words().contents());
         for (k, heading) in writer.contents.iter().enumerate() {
@@ -57,8 +62,8 @@ pub fn page_with(document: &Document, font: &str) -> String {
     out + &writer.out + "</main>\n</body>\n</html>\n"
 }
 
-struct Writer {
-    out: String,
+pub(super) struct Writer {
+    pub(super) out: String,
     /// Headings of level 2.
     contents: Vec<String>,
     figures: usize,
@@ -67,7 +72,11 @@ struct Writer {
 }
 
 impl Writer {
-    fn section(&mut self, section: &Section) {
+    pub(super) fn new(said: &'static dyn Wording) -> Self {
+        Writer { out: String::new(), contents: vec![], figures: 0, tables: 0, said }
+    }
+
+    pub(super) fn section(&mut self, section: &Section) {
         let names = &section.names;
         for part in &section.parts {
             match part {

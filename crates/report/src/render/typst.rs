@@ -12,7 +12,7 @@ use denavit_symbolic::vocabulary::Vocabulary;
 use std::fmt::Write;
 
 /// The first lines of a fragment.
-const HEAD: &str = concat!(
+pub(super) const HEAD: &str = concat!(
     "// Made by denavit ",
     env!("CARGO_PKG_VERSION"),
     "\n#show math.equation: set block(breakable: true)\n#set math.mat(delim: \"[\", column-gap: 0.9em, row-gap: 0.35em)\n"
@@ -72,7 +72,7 @@ pub fn whole(document: &Document) -> String {
 }
 
 /// `up` is taken from the level of headings.
-fn parts(section: &Section, said: &dyn Wording, up: u8, out: &mut String) {
+pub(super) fn parts(section: &Section, said: &dyn Wording, up: u8, out: &mut String) {
     for (k, part) in section.parts.iter().enumerate() {
         match part {
             Part::Block(Block::Paragraph(line)) if part.introduces(section.parts.get(k + 1)) => {
@@ -182,7 +182,7 @@ fn equations(all: &[Math], names: &Vocabulary, out: &mut String) {
     }
 }
 
-fn words(line: &Line, names: &Vocabulary) -> String {
+pub(super) fn words(line: &Line, names: &Vocabulary) -> String {
     let piece = |p: &Piece| match p {
         Piece::Text(t) => format!("#{};", quoted(t)),
         Piece::Strong(t) => format!("#strong({});", quoted(t)),

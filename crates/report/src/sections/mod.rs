@@ -1,5 +1,6 @@
 //! The sections of a report, one file each.
 
+mod compared;
 mod dynamics;
 mod errata;
 mod example;
@@ -14,6 +15,7 @@ mod table;
 mod velocity;
 mod workspace;
 
+pub use compared::compared;
 pub(crate) use example::numbers;
 pub(crate) use inverse::within_turns;
 pub(crate) use setting::Setting;

@@ -13,6 +13,13 @@ const LONG: usize = 240;
 
 /// A box of labels and values.
 pub fn section(s: &Setting) -> Section {
+    let mut section = Section::new(s.description.vocabulary());
+    section.push(Part::Summary(rows(s)));
+    section
+}
+
+/// Labels and values.
+pub fn rows(s: &Setting) -> Vec<(Line, Line)> {
     let label = |glance| Line::new(s.words().glance(glance));
     let mut rows = vec![(label(Glance::Structure), Line::new(s.words().structure(&s.structure)))];
     rows.push((label(Glance::Convention), Line::new(s.words().convention(s.description.convention))));
@@ -28,9 +35,7 @@ pub fn section(s: &Setting) -> Section {
     if s.options.topics.contains(&Topic::Velocity) {
         rows.push((label(Glance::Singularities), singularities(s)));
     }
-    let mut section = Section::new(s.description.vocabulary());
-    section.push(Part::Summary(rows));
-    section
+    rows
 }
 
 fn forward(s: &Setting) -> Line {

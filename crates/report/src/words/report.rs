@@ -158,6 +158,12 @@ pub trait Report {
     /// The title.
     fn title(&self, robot: &str) -> String;
 
+    /// The title of a document about several robots.
+    fn compared(&self, robots: &[&str]) -> String;
+
+    /// The captions of the table and of the pictures in it.
+    fn beside_each_other(&self) -> [&'static str; 2];
+
     /// A heading.
     fn heading(&self, heading: Heading) -> String;
 
@@ -178,6 +184,9 @@ pub trait Report {
 
     /// The label of a list of sections.
     fn contents(&self) -> &'static str;
+
+    /// What turns slides: back, and on.
+    fn turning(&self) -> [&'static str; 2];
 
     /// What is read aloud before a formula.
     fn formula(&self) -> &'static str;

@@ -12,3 +12,4 @@ mod language;
 mod messages;
 mod plot;
 mod report;
+mod slides;

@@ -6,14 +6,15 @@ mod embedded;
 mod installed;
 mod pdf;
 
-use crate::arguments::{LevelName, ReportArguments, ReportFormat, SectionName};
+use crate::arguments::{LevelName, PaceName, ReportArguments, ReportFormat, RobotArguments, SectionName};
 use crate::commands::fk::configuration;
 use crate::failure::Failure;
 use crate::load;
 use denavit::description::Description;
 use denavit_check::{Checked, check};
 use denavit_reading::document::{Format, readable};
-use denavit_report::{Document, Errata, Level, ReportOptions, Topic, render, report};
+use denavit_report::render::slides::{self, Pace};
+use denavit_report::{Document, Errata, Level, ReportOptions, Topic, compared, render, report};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -40,12 +41,25 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
         pose,
         errata,
     };
-    let document = report(&description, &options);
+    let document = match &arguments.beside[..] {
+        [] => report(&description, &options),
+        others => {
+            let others = others.iter().map(|name| {
+                load::robot(&RobotArguments { robot: name.clone(), ..RobotArguments::default() })
+            });
+            let others = others.collect::<Result<Vec<Description>, Failure>>()?;
+            compared(&[vec![description], others].concat(), &options)
+        }
+    };
     if document.sections.is_empty() {
         let why = "--sections: nothing of it applies to this robot; `errata` needs a document with formulas";
         return Err(Failure::Usage(why.into()));
     }
-    write(&document, format, &arguments.output)
+    let pace = arguments.slides.map(|pace| match pace {
+        PaceName::Steps => Pace::Steps,
+        PaceName::Whole => Pace::Whole,
+    });
+    write(&document, format, pace, &arguments.output)
 }
 
 fn level(arguments: &ReportArguments) -> Level {
@@ -104,13 +118,20 @@ fn checked(
     Ok(checked.map(|c| (text, c)))
 }
 
-fn write(document: &Document, format: ReportFormat, to: &Path) -> Result<(), Failure> {
-    let bytes = match format {
-        ReportFormat::Html => render::html(document).into_bytes(),
-        ReportFormat::Typst => render::typst(document).into_bytes(),
-        ReportFormat::Latex => render::latex(document).into_bytes(),
-        ReportFormat::Pdf => pdf::pdf(&render::typst(document))?,
-        ReportFormat::Markdown => return markdown(document, to),
+fn write(document: &Document, format: ReportFormat, pace: Option<Pace>, to: &Path) -> Result<(), Failure> {
+    let bytes = match (format, pace) {
+        (ReportFormat::Html, None) => render::html(document).into_bytes(),
+        (ReportFormat::Html, Some(pace)) => slides::html(document, pace).into_bytes(),
+        (ReportFormat::Typst, None) => render::typst(document).into_bytes(),
+        (ReportFormat::Typst, Some(pace)) => slides::typst(document, pace).into_bytes(),
+        (ReportFormat::Pdf, None) => pdf::pdf(&render::typst(document))?,
+        (ReportFormat::Pdf, Some(pace)) => pdf::pdf(&slides::typst(document, pace))?,
+        (ReportFormat::Latex | ReportFormat::Markdown, Some(_)) => {
+            let why = "--slides: slides are written as .html, .typ or .pdf, not as LaTeX or Markdown";
+            return Err(Failure::Usage(why.into()));
+        }
+        (ReportFormat::Latex, None) => render::latex(document).into_bytes(),
+        (ReportFormat::Markdown, None) => return markdown(document, to),
     };
     put(to, &bytes)
 }

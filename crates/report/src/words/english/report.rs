@@ -17,6 +17,14 @@ impl Report for English {
         format!("Kinematics of the {robot}")
     }
 
+    fn compared(&self, robots: &[&str]) -> String {
+        format!("{} compared", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
+    }
+
+    fn beside_each_other(&self) -> [&'static str; 2] {
+        ["The robots at a glance.", "The robots, each as large as its picture allows."]
+    }
+
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "The arm",
@@ -87,6 +95,10 @@ impl Report for English {
 
     fn contents(&self) -> &'static str {
         "Contents"
+    }
+
+    fn turning(&self) -> [&'static str; 2] {
+        ["Previous step", "Next step"]
     }
 
     fn formula(&self) -> &'static str {

@@ -17,6 +17,14 @@ impl Report for French {
         say!("Modélisation géométrique et cinématique : {robot}")
     }
 
+    fn compared(&self, robots: &[&str]) -> String {
+        say!("Comparaison : {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
+    }
+
+    fn beside_each_other(&self) -> [&'static str; 2] {
+        ["Les robots en bref.", "Les robots, chacun aussi grand que son image le permet."]
+    }
+
     fn heading(&self, heading: Heading) -> String {
         printed(match heading {
             Heading::Arm => "Le bras",
@@ -83,6 +91,10 @@ impl Report for French {
 
     fn contents(&self) -> &'static str {
         "Sommaire"
+    }
+
+    fn turning(&self) -> [&'static str; 2] {
+        ["Étape précédente", "Étape suivante"]
     }
 
     fn formula(&self) -> &'static str {

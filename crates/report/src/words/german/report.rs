@@ -17,6 +17,14 @@ impl Report for German {
         format!("Kinematik: {robot}")
     }
 
+    fn compared(&self, robots: &[&str]) -> String {
+        format!("{} im Vergleich", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
+    }
+
+    fn beside_each_other(&self) -> [&'static str; 2] {
+        ["Die Roboter auf einen Blick.", "Die Roboter, jeder so groß, wie es sein Bild erlaubt."]
+    }
+
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "Der Arm",
@@ -87,6 +95,10 @@ impl Report for German {
 
     fn contents(&self) -> &'static str {
         "Inhalt"
+    }
+
+    fn turning(&self) -> [&'static str; 2] {
+        ["Schritt zurück", "Nächster Schritt"]
     }
 
     fn formula(&self) -> &'static str {

@@ -17,6 +17,14 @@ impl Report for Spanish {
         format!("Cinemática: {robot}")
     }
 
+    fn compared(&self, robots: &[&str]) -> String {
+        format!("Comparación: {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
+    }
+
+    fn beside_each_other(&self) -> [&'static str; 2] {
+        ["Los robots de un vistazo.", "Los robots, cada uno tan grande como permite su imagen."]
+    }
+
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "El brazo",
@@ -87,6 +95,10 @@ impl Report for Spanish {
 
     fn contents(&self) -> &'static str {
         "Índice"
+    }
+
+    fn turning(&self) -> [&'static str; 2] {
+        ["Paso anterior", "Paso siguiente"]
     }
 
     fn formula(&self) -> &'static str {

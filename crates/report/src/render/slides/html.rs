@@ -1,0 +1,66 @@
+//! Slides as one page of HTML that needs nothing else. Without its program all slides stand below each other.
+
+use super::{Pace, Slide, deck, place};
+use crate::document::{Document, Part, Section};
+use crate::render::html::{Writer, escaped, font, head, words};
+use std::fmt::Write;
+
+const LOOK: &str = include_str!("../../../assets/slides.css");
+const PROGRAM: &str = include_str!("../../../assets/slides.js");
+
+/// The slides of a document.
+pub fn slides(document: &Document, pace: Pace) -> String {
+    let said = document.language.words();
+    let mut out = head(document, &font(), LOOK);
+    let author = document.author.as_deref();
+    let author = author.map_or_else(String::new, |a| format!("<p class=\"author\">{}</p>\n", escaped(a)));
+    let pace = match pace {
+        Pace::Steps => "steps",
+        Pace::Whole => "whole",
+    };
+    let _ = writeln!(
+        out,
+        "<body>\n<main class=\"slides\" data-pace=\"{pace}\">\n<section class=\"slide first\">\n<h1>{}</h1>\n{author}</section>",
+        escaped(&document.title)
+    );
+    let mut writer = Writer::new(said);
+    for slide in &deck(document) {
+        one(slide, &mut writer);
+    }
+    out += &writer.out;
+    let [before, next] = said.turning();
+    let _ = writeln!(
+        out,
+        "</main>\n<nav class=\"turning\" hidden=\"hidden\">\n\
+         <button type=\"button\" class=\"before\" aria-label=\"{before}\">‹</button>\n\
+         <output class=\"place\" aria-live=\"off\"></output>\n\
+         <button type=\"button\" class=\"next\" aria-label=\"{next}\">›</button>\n</nav>\n\
+         <script>\n//<![CDATA[\n{PROGRAM}//]]>\n</script>\n</body>\n</html>"
+    );
+    out
+}
+
+fn one(slide: &Slide, writer: &mut Writer) {
+    let names = &slide.names;
+    let under =
+        slide.under.as_ref().map_or_else(String::new, |u| format!(" <small>{}</small>", words(u, names)));
+    let place = place(slide.place);
+    let place = if place.is_empty() { place } else { format!(" <span class=\"part\">{place}</span>") };
+    let _ = writeln!(
+        writer.out,
+        "<section class=\"slide\">\n<h2>{}{under}{place}</h2>\n<div class=\"body\">",
+        words(&slide.title, names)
+    );
+    let mut set = |class: &str, some: &[Part]| {
+        let _ = writeln!(writer.out, "<div class=\"{class}\">");
+        writer.section(&Section { names: names.clone(), parts: some.to_vec() });
+        writer.out.push_str("</div>\n");
+    };
+    if let Some(part) = &slide.reminder {
+        set("reminder", std::slice::from_ref(part));
+    }
+    for step in &slide.steps {
+        set("step", step);
+    }
+    writer.out.push_str("</div>\n</section>\n");
+}

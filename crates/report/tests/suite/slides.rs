@@ -1,0 +1,79 @@
+//! Slides: nothing of a document is lost in them, and the pages are well-formed.
+
+use denavit::catalogue;
+use denavit_report::render::slides::{self, Pace};
+use denavit_report::words::Tongue;
+use denavit_report::{Document, ReportOptions, compared, render, report};
+
+fn document(name: &str, language: Tongue) -> Document {
+    let robot = catalogue::robot(name).expect("in the catalogue");
+    report(&robot, &ReportOptions { language, ..ReportOptions::default() })
+}
+
+/// What stands in the attributes with which formulas are read aloud, each as often as it stands there, and each picture's title.
+fn spoken(page: &str) -> Vec<String> {
+    let after = |mark: &'static str, end: &'static str| {
+        page.split(mark).skip(1).filter_map(move |rest| rest.split(end).next()).map(String::from)
+    };
+    let mut all: Vec<String> = after("alttext=\"", "\"").chain(after("<td>", "</td>")).collect();
+    all.sort();
+    all
+}
+
+/// The page without what a slide reminds of.
+fn without_reminders(page: &str) -> String {
+    let mut parts = page.split("<div class=\"reminder\">\n");
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.fold(first, |before, rest| {
+        before + rest.split_once("<div class=\"step\">\n").map_or("", |(_, own)| own)
+    })
+}
+
+#[test]
+fn slides_hold_all_that_the_report_says() {
+    for (name, language) in [
+        ("staubli-rx90", Tongue::English),
+        ("scara", Tongue::German),
+        ("ur5", Tongue::French),
+        ("kuka-iiwa-14", Tongue::Spanish),
+    ] {
+        let document = document(name, language);
+        let page = spoken(&render::html(&document));
+        for pace in [Pace::Steps, Pace::Whole] {
+            let talk = slides::html(&document, pace);
+            let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+            roxmltree::Document::parse_with_options(&talk, options).expect(name);
+            let own = spoken(&without_reminders(&talk));
+            let missing: Vec<&String> = page.iter().filter(|one| own.binary_search(one).is_err()).collect();
+            assert!(missing.is_empty(), "{name}: {missing:?}");
+            assert_eq!(page.len(), own.len(), "{name}: as many formulas and cells, none twice");
+        }
+    }
+}
+
+#[test]
+fn a_slide_reminds_of_the_formula_before_and_of_nothing_else() {
+    let talk = slides::html(&document("staubli-rx90", Tongue::English), Pace::Steps);
+    assert!(talk.matches("class=\"reminder\"").count() > 3, "long derivations go on");
+    for part in talk.split("<div class=\"reminder\">\n").skip(1) {
+        let reminder = part.split("<div class=\"step\">").next().unwrap_or_default();
+        assert!(reminder.starts_with("<div class=\"formula\""), "{reminder}");
+    }
+}
+
+#[test]
+fn several_robots_stand_in_one_table() {
+    let robots =
+        ["ur5", "staubli-rx90", "scara"].map(|name| catalogue::robot(name).expect("in the catalogue"));
+    for language in Tongue::ALL {
+        let document = compared(&robots, &ReportOptions { language, ..ReportOptions::default() });
+        let page = render::html(&document);
+        for robot in &robots {
+            let heading = format!("<th scope=\"col\">{}</th>", robot.name);
+            assert!(page.contains(&heading), "{}", robot.name);
+            assert!(document.title.contains(&robot.name), "{}", document.title);
+        }
+        // The table of each, and what each reaches.
+        assert_eq!(page.matches("<h3>").count(), 2 * robots.len(), "{language:?}");
+    }
+}
