@@ -25,7 +25,10 @@ for (const file of pages) {
     page.on("request", (r) => r.url().split("#")[0] !== url && !r.url().startsWith("data:") && say(`request: ${r.url()}`));
     await page.goto(url);
     await page.evaluate(() => document.fonts.ready);
-    const steps = await page.evaluate(() => [...document.querySelectorAll(".slide")].map((s) => Math.max(1, s.querySelectorAll(".step").length)));
+    const steps = await page.evaluate(() => {
+      const isPaced = document.querySelector("main").dataset.pace === "steps";
+      return [...document.querySelectorAll(".slide")].map((s) => (isPaced ? Math.max(1, s.querySelectorAll(".step").length) : 1));
+    });
     for (const [slide, count] of steps.entries()) {
       for (let step = 0; step < count; step++) {
         for (const text of await page.evaluate(inspect, [slide, step, SMALLEST])) say(`slide ${slide + 1}, step ${step + 1}: ${text}`);
@@ -62,7 +65,8 @@ function inspect([slide, step, smallest]) {
   if (shown.length !== 1 || shown[0] !== document.querySelectorAll(".slide")[slide]) return [...found, "another slide is shown"];
   const seen = [...shown[0].querySelectorAll(".step")].filter((s) => getComputedStyle(s).visibility === "visible");
   const all = shown[0].querySelectorAll(".step").length;
-  if (seen.length !== Math.min(all, step + 1)) found.push(`${seen.length} of ${all} steps are seen`);
+  const isPaced = document.querySelector("main").dataset.pace === "steps";
+  if (seen.length !== (isPaced ? Math.min(all, step + 1) : all)) found.push(`${seen.length} of ${all} steps are seen`);
   const body = shown[0].querySelector(".body");
   if (!body) return found;
   const words = (e) => (e.textContent || "").trim().slice(0, 60);

@@ -114,7 +114,8 @@ fn pages(folder: &Path) -> Result<()> {
     turn.arg("xtask/pages/turn.mjs").arg(chromium);
     for (k, robot) in ROBOTS[..SEVERAL].iter().enumerate() {
         let page = folder.join(format!("{robot}-slides.html"));
-        report(robot, &page, &["--slides", "--language", OTHERS.get(k).unwrap_or(&"en")])?;
+        let pace = if k % 2 == 0 { "--slides" } else { "--slides=whole" };
+        report(robot, &page, &[pace, "--language", OTHERS.get(k).unwrap_or(&"en")])?;
         turn.arg(page);
     }
     succeed(&mut turn)

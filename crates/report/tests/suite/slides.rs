@@ -12,21 +12,29 @@ fn document(name: &str, language: Tongue) -> Document {
 
 /// What stands in the attributes with which formulas are read aloud, each as often as it stands there, and each picture's title.
 fn spoken(page: &str) -> Vec<String> {
+    // A heading stands on each slide that goes on below it.
+    let headings = [("<h2", "</h2>"), ("<h3", "</h3>"), ("<h4", "</h4>"), ("<nav", "</nav>")];
+    let page = &headings.into_iter().fold(page.to_string(), |page, (from, to)| without(&page, from, to));
     let after = |mark: &'static str, end: &'static str| {
-        page.split(mark).skip(1).filter_map(move |rest| rest.split(end).next()).map(String::from)
+        page.split(mark).skip(1).filter_map(move |rest| rest.split(end).next())
     };
-    let mut all: Vec<String> = after("alttext=\"", "\"").chain(after("<td>", "</td>")).collect();
+    // Equations below each other are read aloud in one.
+    let spoken = after("alttext=\"", "\"").flat_map(|text| text.split("; "));
+    let mut all: Vec<String> = spoken.chain(after("<td>", "</td>")).map(String::from).collect();
     all.sort();
     all
 }
 
+/// The page without what stands between two marks.
+fn without(page: &str, from: &str, to: &str) -> String {
+    let mut parts = page.split(from);
+    let first = parts.next().unwrap_or_default().to_string();
+    parts.fold(first, |before, rest| before + rest.split_once(to).map_or("", |(_, own)| own))
+}
+
 /// The page without what a slide reminds of.
 fn without_reminders(page: &str) -> String {
-    let mut parts = page.split("<div class=\"reminder\">\n");
-    let first = parts.next().unwrap_or_default().to_string();
-    parts.fold(first, |before, rest| {
-        before + rest.split_once("<div class=\"step\">\n").map_or("", |(_, own)| own)
-    })
+    without(page, "<div class=\"reminder\">\n", "<div class=\"step\">\n")
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Slides as one page of HTML that needs nothing else. Without its program all slides stand below each other.
 
 use super::{Pace, Slide, deck, place};
-use crate::document::{Document, Part, Section};
+use crate::document::{Document, Section};
 use crate::render::html::{Writer, escaped, font, head, words};
 use std::fmt::Write;
 
@@ -51,13 +51,13 @@ fn one(slide: &Slide, writer: &mut Writer) {
         "<section class=\"slide\">\n<h2>{}{under}{place}</h2>\n<div class=\"body\">",
         words(&slide.title, names)
     );
-    let mut set = |class: &str, some: &[Part]| {
+    let mut set = |class: &str, section: &Section| {
         let _ = writeln!(writer.out, "<div class=\"{class}\">");
-        writer.section(&Section { names: names.clone(), parts: some.to_vec() });
+        writer.section(section);
         writer.out.push_str("</div>\n");
     };
-    if let Some(part) = &slide.reminder {
-        set("reminder", std::slice::from_ref(part));
+    if let Some(section) = &slide.reminder {
+        set("reminder", section);
     }
     for step in &slide.steps {
         set("step", step);

@@ -9,8 +9,8 @@ mod typst;
 pub use html::slides as html;
 pub use typst::slides as typst;
 
-use super::layout::{beside, display, equation, named};
-use crate::document::{Block, Branch, Document, Figure, Line, Math, Part, Section, Table, plain};
+use super::layout::{Named, beside, display, equation, named};
+use crate::document::{Block, Branch, Document, Figure, Line, Math, Part, Piece, Section, Table, plain};
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
 
@@ -33,8 +33,9 @@ const LETTERS: f64 = 84.0;
 /// Rows of a table on one slide, and lines of text that is set as it stands.
 const ROWS: usize = 12;
 const LINES: usize = 16;
-/// So many equations below each other come at once.
+/// So many lines of equations below each other come at once, and so many pictures.
 const STRIDE: usize = 3;
+const PICTURES: usize = 4;
 
 /// A slide.
 struct Slide {
@@ -47,9 +48,9 @@ struct Slide {
     place: (usize, usize),
     names: Vocabulary,
     /// What the slide before ended with.
-    reminder: Option<Part>,
+    reminder: Option<Section>,
     /// What comes into view together, in order.
-    steps: Vec<Vec<Part>>,
+    steps: Vec<Section>,
 }
 
 /// The slides of a document, in order.
@@ -58,17 +59,27 @@ fn deck(document: &Document) -> Vec<Slide> {
     let mut title = Line::default();
     for section in &document.spelled() {
         let mut under = None;
-        let mut parts: Vec<Part> = vec![];
+        let mut parts: Vec<Shown> = vec![];
         for part in &section.parts {
             match part {
                 Part::Block(Block::Heading(level, line)) => {
-                    out.extend(run(&title, under.as_ref(), section, &std::mem::take(&mut parts)));
-                    match level {
-                        ..=2 => (title, under) = (line.clone(), None),
-                        _ => under = Some(line.clone()),
-                    }
+                    let own = run(&title, under.as_ref(), section, &std::mem::take(&mut parts));
+                    under = match (level, under.take()) {
+                        (..=2, _) => {
+                            title = line.clone();
+                            None
+                        }
+                        // A heading with nothing of its own stands before the first inside of it.
+                        (4.., Some(Line(above))) if own.is_empty() => {
+                            let mut line = line.clone();
+                            line.0.splice(0..0, above.into_iter().chain([Piece::Text(": ".into())]));
+                            Some(line)
+                        }
+                        _ => Some(line.clone()),
+                    };
+                    out.extend(own);
                 }
-                other => parts.extend(pieces(other)),
+                other => parts.extend(pieces(other, &section.names)),
             }
         }
         out.extend(run(&title, under.as_ref(), section, &parts));
@@ -82,27 +93,38 @@ fn deck(document: &Document) -> Vec<Slide> {
     out
 }
 
+/// A part that fits a slide, with the names of its formulas.
+struct Shown {
+    part: Part,
+    names: Vocabulary,
+}
+
+impl Shown {
+    fn height(&self) -> f64 {
+        height(&self.part, &self.names)
+    }
+}
+
 /// The slides with the same headings.
-fn run(title: &Line, under: Option<&Line>, section: &Section, parts: &[Part]) -> Vec<Slide> {
-    let names = &section.names;
-    let mut slides: Vec<(Option<Part>, Vec<Vec<Part>>)> = vec![];
+fn run(title: &Line, under: Option<&Line>, section: &Section, parts: &[Shown]) -> Vec<Slide> {
+    let mut slides: Vec<(Option<Section>, Vec<Section>)> = vec![];
     let mut full = f64::INFINITY;
-    let mut last: Option<&Part> = None;
+    let mut last: Option<&Shown> = None;
     let mut rest = parts;
     while let Some((first, behind)) = rest.split_first() {
-        let count = if first.introduces(behind.first()) { 2 } else { 1 };
+        let count = if first.part.introduces(behind.first().map(|next| &next.part)) { 2 } else { 1 };
         let (step, behind) = rest.split_at(count);
-        let height: f64 = step.iter().map(|part| height(part, names)).sum();
+        let height: f64 = step.iter().map(Shown::height).sum();
         if full + height > ROOM {
-            let reminder = last.filter(|part| is_formula(part) && self::height(part, names) <= REMINDED);
-            full = reminder.map_or(0.0, |part| self::height(part, names));
+            let reminder = last.filter(|shown| is_formula(&shown.part) && shown.height() <= REMINDED);
             // What fills a slide has no room for more.
-            let reminder = reminder.filter(|_| full + height <= ROOM);
-            slides.push((reminder.cloned(), vec![]));
+            let reminder = reminder.filter(|shown| shown.height() + height <= ROOM);
+            full = reminder.map_or(0.0, Shown::height);
+            slides.push((reminder.map(|shown| together(std::slice::from_ref(shown))), vec![]));
         }
         full += height;
         if let Some((_, steps)) = slides.last_mut() {
-            steps.push(step.to_vec());
+            steps.push(together(step));
         }
         last = step.last();
         rest = behind;
@@ -113,11 +135,17 @@ fn run(title: &Line, under: Option<&Line>, section: &Section, parts: &[Part]) ->
         under: under.cloned(),
         opens: false,
         place: (k + 1, count),
-        names: names.clone(),
+        names: section.names.clone(),
         reminder,
         steps,
     };
     slides.into_iter().enumerate().map(slide).collect()
+}
+
+/// What comes together, under the names of the last, which are those of a text and more.
+fn together(step: &[Shown]) -> Section {
+    let names = step.last().map(|shown| shown.names.clone()).unwrap_or_default();
+    Section { names, parts: step.iter().map(|shown| shown.part.clone()).collect() }
 }
 
 fn is_formula(part: &Part) -> bool {
@@ -125,28 +153,60 @@ fn is_formula(part: &Part) -> bool {
 }
 
 /// A part in pieces that fit a slide, where it can be cut.
-fn pieces(part: &Part) -> Vec<Part> {
+fn pieces(part: &Part, names: &Vocabulary) -> Vec<Shown> {
+    let own = |part: Part| Shown { part, names: names.clone() };
+    let equations = |all: &[Math], names: &Vocabulary| {
+        let of = |some: &[Math]| Shown { part: Part::Equations(some.to_vec()), names: names.clone() };
+        in_strides(all, names).into_iter().map(of).collect::<Vec<_>>()
+    };
     match part {
+        Part::Block(block @ Block::Formula { .. }) => match named(block, names) {
+            // The matrix, then what its names stand for.
+            Some(Named { matrix, entries, names }) => {
+                let mut all = vec![Shown { part: matrix.into(), names: names.clone() }];
+                all.extend(equations(&entries, &names));
+                all
+            }
+            None => vec![own(part.clone())],
+        },
         Part::Block(Block::List(lines)) => {
-            lines.iter().map(|l| Block::List(vec![l.clone()]).into()).collect()
+            lines.iter().map(|l| own(Block::List(vec![l.clone()]).into())).collect()
         }
-        Part::Equations(all) => all.chunks(STRIDE).map(|some| Part::Equations(some.to_vec())).collect(),
+        Part::Equations(all) => equations(all, names),
         Part::Table(table) if table.rows.len() > ROWS => {
-            let of = |rows: &[Vec<Line>]| Part::Table(Table { rows: rows.to_vec(), ..table.clone() });
+            let of = |rows: &[Vec<Line>]| own(Part::Table(Table { rows: rows.to_vec(), ..table.clone() }));
             table.rows.chunks(ROWS).map(of).collect()
         }
-        Part::Figure(figure) if figure.pictures.len() > 4 => {
+        Part::Figure(figure) if figure.pictures.len() > PICTURES => {
             let of = |some: &[_]| {
-                Part::Figure(Figure { caption: figure.caption.clone(), pictures: some.to_vec() })
+                own(Part::Figure(Figure { caption: figure.caption.clone(), pictures: some.to_vec() }))
             };
-            figure.pictures.chunks(4).map(of).collect()
+            figure.pictures.chunks(PICTURES).map(of).collect()
         }
         Part::Code(text) => {
             let lines: Vec<&str> = text.lines().collect();
-            lines.chunks(LINES).map(|some| Part::Code(some.join("\n"))).collect()
+            lines.chunks(LINES).map(|some| own(Part::Code(some.join("\n")))).collect()
         }
-        other => vec![other.clone()],
+        other => vec![own(other.clone())],
     }
+}
+
+/// Equations that come at once: a few, or one that is long.
+fn in_strides<'a>(all: &'a [Math], names: &Vocabulary) -> Vec<&'a [Math]> {
+    let mut out = vec![];
+    let mut rest = all;
+    while !rest.is_empty() {
+        let mut count = 1;
+        let mut height = lines(&rest[0], names);
+        while count < rest.len().min(STRIDE) && height + lines(&rest[count], names) <= STRIDE as f64 {
+            height += lines(&rest[count], names);
+            count += 1;
+        }
+        let (some, behind) = rest.split_at(count);
+        out.push(some);
+        rest = behind;
+    }
+    out
 }
 
 /// How much of a slide a part takes, lines of text.
@@ -170,10 +230,6 @@ fn height(part: &Part, names: &Vocabulary) -> f64 {
 }
 
 fn height_of(block: &Block, names: &Vocabulary) -> f64 {
-    if let Some(named) = named(block, names) {
-        let entries = named.entries.iter().map(|m| 1.4 * lines(m, &named.names)).sum::<f64>();
-        return entries + height_of(&named.matrix, &named.names);
-    }
     match block {
         Block::Heading(..) => 0.0,
         Block::Paragraph(line) => 0.4 + text(line, names, LETTERS),

@@ -1,7 +1,7 @@
 //! Slides as Typst markup: each step is a page, on which what is to come keeps its place.
 
 use super::{Pace, Slide, deck, place};
-use crate::document::{Document, Part, Section};
+use crate::document::{Document, Section};
 use crate::render::typst::{HEAD, parts, quoted, words};
 use crate::words::Wording;
 use std::fmt::Write;
@@ -16,6 +16,8 @@ const LOOK: &str = r##"#let ink = rgb("#17395c")
 #set table(stroke: none, inset: (x: 0.55em, y: 0.36em))
 #set list(indent: 0.4em, spacing: 0.6em)
 #set figure(numbering: none)
+#show heading.where(level: 1): set text(1em / 1.4)
+#show heading.where(level: 2): set text(1em / 1.2, weight: "regular")
 #show heading: it => it.body
 #show figure.where(kind: table): set figure.caption(position: top)
 #show figure.caption: it => text(0.85em, it.body)
@@ -90,10 +92,9 @@ pub fn slides(document: &Document, pace: Pace) -> String {
 }
 
 fn one(slide: &Slide, said: &dyn Wording, out: &mut String) {
-    let set = |some: &[Part]| {
-        let section = Section { names: slide.names.clone(), parts: some.to_vec() };
+    let set = |section: &Section| {
         let mut out = String::new();
-        parts(&section, said, 1, &mut out);
+        parts(section, said, 1, &mut out);
         out
     };
     let optional = |content: Option<String>| content.map_or("none".into(), |c| format!("[{c}]"));
@@ -104,7 +105,7 @@ fn one(slide: &Slide, said: &dyn Wording, out: &mut String) {
         optional(slide.under.as_ref().map(|line| words(line, &slide.names))),
         place(slide.place),
         slide.opens,
-        optional(slide.reminder.as_ref().map(|part| set(std::slice::from_ref(part)))),
+        optional(slide.reminder.as_ref().map(set)),
     );
     for step in &slide.steps {
         let _ = writeln!(out, "[{}],", set(step));
