@@ -3,6 +3,7 @@
 mod attack;
 mod axes;
 mod common;
+mod coupled;
 mod description;
 mod description_bytes;
 mod description_counted;
