@@ -7,7 +7,7 @@ use crate::common::{Random, share};
 use crate::linkages::{Between, catalogued};
 use denavit::closure::{ClosedInverse, Loops};
 use denavit::description::linkage::Wanted;
-use denavit::description::{Convention, read_toml};
+use denavit::description::{Convention, prove_same_chain, read_toml};
 use denavit::inverse::{InverseKinematics, InverseModel, InverseOptions, Refusal, Task, Unsuitable};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -136,4 +136,31 @@ fn the_palletiser_has_all_its_solutions_in_closed_form() {
         * solver.robot.pose(&[0.1, 1.2, 0.2, 0.3]);
     let answer = solver.solve(&tilted, &[]);
     assert!(!answer.is_reachable() && answer.is_complete(), "{answer:?}");
+}
+
+/// The catalogue's arms with parallelograms are chains of which all solutions are found; that of the IRB 2400 is the table without
+/// its rods, the angle of the forearm measured against the turret.
+#[test]
+fn arms_with_parallelograms_are_chains_with_closed_forms() {
+    let mut random = Random(23);
+    for (name, joints) in [("irb660", 4), ("kr-pa", 4), ("irb2400", 6), ("sr400", 6)] {
+        let chain = catalogued(name).chain(None, None, None, Convention::Khalil).expect("a chain");
+        assert!(!chain.closed.as_ref().is_some_and(|c| c.is_of_values), "{name}: proved for all lengths");
+        let solver = InverseKinematics::new(&chain.description, &InverseOptions::default()).expect("values");
+        assert_eq!((solver.method(), solver.robot.joints), ("closed form", joints), "{name}");
+        for _ in 0..share(2_000, 20) {
+            let asked = poses::asked(&mut random, &solver.robot, &solver.space);
+            let answer = solver.solve(&asked.pose, &[]);
+            let fault = judge::judge(&solver, &asked, &answer, 6, &mut random);
+            assert!(
+                fault.is_none() || asked.class != "regular" && !fault.is_some_and(Fault::is_lie),
+                "{name}: {fault:?}: {asked:?}"
+            );
+        }
+        if name == "irb2400" {
+            let text = denavit::catalogue::text("abb-irb2400-10").expect("it is there");
+            let (serial, _) = read_toml(&text.replace("\"q3\"", "\"q3 - q2\"")).expect("a table");
+            assert!(prove_same_chain(&chain.description, &serial).is_equal());
+        }
+    }
 }
