@@ -24,7 +24,7 @@ pub use mode::{Mode, NoMode, Sign};
 pub use order::{Dyad, Plan, Step, Sum, Unsolved, Vectors};
 pub use plane::{Fault, Planar, Term};
 pub use spherical::{Between, Spherical};
-pub use towards::{NotTowards, Towards, Wanted};
+pub use towards::{NotTowards, TipPlane, Towards, Wanted};
 pub use write_par::write_linkage_par;
 
 use super::branches::{NamedFrame, RowTree};
