@@ -36,6 +36,7 @@ mod linkages_inverse;
 mod mechanism;
 mod members;
 mod mjcf;
+mod mjcf_loops;
 mod motion_jerk;
 mod motion_jerk_torques;
 mod motion_plan;

@@ -9,6 +9,7 @@
 //! - [`Linkage::chain`]: the serial chain that a linkage is where its passive joints are affine in the driven ones.
 
 mod affine;
+mod bodies;
 mod chain;
 pub mod dyad;
 mod mode;
