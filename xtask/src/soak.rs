@@ -75,7 +75,10 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
     let soaks: [(&str, &[&str]); 7] = [
-        ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
+        (
+            "denavit",
+            &["coupled::", "inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"],
+        ),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
         ("denavit-elimination", &[]),

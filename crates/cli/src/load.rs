@@ -210,7 +210,14 @@ pub fn mechanism(arguments: &RobotArguments) -> Result<Option<Tree>, Failure> {
     let tree = match Kind::of(name) {
         Some(Kind::Bodies) if listed.is_none() => {
             check_options(arguments, false)?;
-            Tree::Bodies(urdf::mechanism(arguments)?)
+            match urdf::bodies(arguments)? {
+                Content::Bodies(mechanism) => Tree::Bodies(*mechanism),
+                Content::Rows(Described::Linkage(of)) => match closed_tree(arguments, &of) {
+                    Some(tree) => Tree::Rows(tree),
+                    None => return Ok(None),
+                },
+                _ => return Ok(None),
+            }
         }
         Some(Kind::Par) => {
             check_options(arguments, false)?;

@@ -5,8 +5,8 @@ use crate::kind::Kind;
 use crate::text::contents;
 use denavit::closure;
 use denavit::description::{
-    Decimals, Described, Diagnostic, MAX_BYTES, MAX_XML_BYTES, Mechanism, RowTree, Severity, TableOptions,
-    is_mjcf, read_bodies, read_par, read_program, read_robot, read_table_robot,
+    Decimals, Described, Diagnostic, Linkage, MAX_BYTES, MAX_XML_BYTES, Mechanism, RowTree, Severity,
+    TableOptions, is_mjcf, read_bodies, read_par, read_program, read_robot, read_table_robot,
 };
 use std::io;
 use std::path::PathBuf;
@@ -34,11 +34,11 @@ impl Options {
 
 /// What a file says of a robot.
 pub enum Content {
-    /// A chain, or a tree of rows.
+    /// A chain, a tree of rows, or what has closed loops.
     Rows(Described),
     /// A tree of rows as SYMORO writes it, which may be a chain.
     Par(Box<RowTree>),
-    /// A tree of bodies.
+    /// A tree of bodies without closed loops.
     Bodies(Box<Mechanism>),
 }
 
@@ -149,7 +149,7 @@ fn with_loops(read: &Described, mut found: Vec<Diagnostic>) -> Result<Vec<Diagno
     if has_errors { Err(found) } else { Ok(found) }
 }
 
-/// A tree of bodies, with the files that it names.
+/// A tree of bodies, with the files that it names; with closed loops it is a linkage.
 fn bodies(name: &str, text: Arc<str>, options: &Options) -> Result<Contents, Problem> {
     if is_mjcf(&text) && !options.arguments.is_empty() {
         return Err(Problem::TakesNoArguments);
@@ -176,11 +176,36 @@ fn bodies(name: &str, text: Arc<str>, options: &Options) -> Result<Contents, Pro
         };
         found.into_iter().filter_map(place).collect()
     };
-    let (mechanism, findings) = outcome.map_err(|found| Problem::Errors(placed(found)))?;
-    let findings = placed(findings);
+    let (mechanism, mut found) = outcome.map_err(|found| Problem::Errors(placed(found)))?;
+    let linkage = closed(&mechanism, &mut found);
+    let findings = placed(found);
     let apart = match (options.decimals(), read(Decimals::AsWritten)) {
         (Decimals::Meant, (Ok((written, _)), _)) => mechanism.apart(&written),
         _ => 0.0,
     };
-    Ok(Contents { content: Content::Bodies(Box::new(mechanism)), text, findings, apart })
+    let content = match linkage {
+        Some(linkage) => Content::Rows(Described::Linkage(Box::new(linkage))),
+        None => Content::Bodies(Box::new(mechanism)),
+    };
+    Ok(Contents { content, text, findings, apart })
+}
+
+/// The linkage of a tree of bodies with closed loops; nothing where it has none, or such that are found wrong: then they are left, which is
+/// said.
+fn closed(mechanism: &Mechanism, found: &mut Vec<Diagnostic>) -> Option<Linkage> {
+    let span = mechanism.holds.first()?.span.clone();
+    let linkage = Linkage::of_mechanism(mechanism).ok();
+    let said = linkage.as_ref().map_or(vec![], closure::findings);
+    let is_wrong = linkage.is_none() || said.iter().any(|d| d.severity == Severity::Error);
+    let softened = |d: Diagnostic| match d.severity {
+        Severity::Error => Diagnostic { severity: Severity::Warning, ..d },
+        _ => d,
+    };
+    found.extend(said.into_iter().map(softened));
+    if is_wrong {
+        let message = "the closed loops are left: joints move as if they were open".into();
+        found.push(Diagnostic { severity: Severity::Warning, span, message, hint: None });
+        return None;
+    }
+    linkage
 }

@@ -100,6 +100,10 @@ pub fn tree(wanted: &Wanted) -> Result<Taken, Refusal> {
         let words = || crate::words().read_apart(apart);
         findings.extend((apart > SEEN).then(|| alone(Severity::Note, words(), None)));
     }
+    if !mechanism.holds.is_empty() {
+        let message = "its closed loops are not held here: joints move as if they were open".to_string();
+        findings.push(alone(Severity::Warning, message, None));
+    }
     let links: Vec<String> = mechanism.bodies.iter().map(|b| b.name.clone()).collect();
     let ends: Vec<String> = mechanism.leaves().into_iter().map(|b| links[b].clone()).collect();
     let [base, tip] = [&wanted.base, &wanted.tip].map(|body| body.as_deref().filter(|b| !b.is_empty()));

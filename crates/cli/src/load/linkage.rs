@@ -1,6 +1,6 @@
 //! Robots with closed loops that are no serial chain.
 
-use super::{Around, contents, name_and_value, options, render, rows};
+use super::{Around, contents, file, name_and_value, options, render, rows};
 use crate::arguments::RobotArguments;
 use crate::failure::{Failure, without_values};
 use crate::terminal::note;
@@ -28,6 +28,12 @@ pub fn linkage(arguments: &RobotArguments) -> Result<Option<Linkage>, Failure> {
     let read = match (listed, Kind::of(name)) {
         (Some(text), _) => read_robot(text).ok(),
         (None, Some(Kind::Robot)) => contents(name, MAX_BYTES).ok().and_then(|text| read_robot(&text).ok()),
+        (None, Some(kind @ Kind::Bodies)) => {
+            let found = denavit_load::read(name, kind, &options(arguments)?).ok();
+            found.and_then(
+                |found| if let Content::Rows(read) = found.content { Some((read, vec![])) } else { None },
+            )
+        }
         (None, Some(Kind::Par)) => {
             let decimals = options(arguments)?.decimals();
             contents(name, MAX_BYTES).ok().and_then(|text| read_par(&text, decimals).ok())
@@ -57,7 +63,9 @@ pub fn without_chain(arguments: &RobotArguments) -> Result<Option<Linkage>, Fail
     }
     let name = arguments.robot.as_str();
     let is_listed = catalogue_name(name).is_some_and(|n| listed(&n).is_some());
-    if !is_listed {
+    if !is_listed && Kind::of(name) == Some(Kind::Bodies) {
+        file(arguments, Kind::Bodies)?; // what is worth saying of it is said
+    } else if !is_listed {
         let text = contents(name, MAX_BYTES).unwrap_or_default();
         let found = findings(&linkage);
         if found.iter().any(|d| d.severity == Severity::Error) {

@@ -1,10 +1,11 @@
 //! A URDF, plain or for xacro to expand, and the chain of it that a command is about.
 
-use super::{Around, file, options, rows, unknown_robot};
+use super::linkage::set;
+use super::{Around, file, options, rows};
 use crate::arguments::RobotArguments;
 use crate::failure::Failure;
 use crate::terminal::{note, words};
-use denavit::description::{Convention, Decimals, Description, MAX_XML_BYTES, Mechanism, Shape, read_bodies};
+use denavit::description::{Convention, Decimals, Described, Description, MAX_XML_BYTES, Shape, read_bodies};
 use denavit_load::{Content, Folder, Kind, contents, plain};
 use denavit_wire::view::Bundle;
 use std::fs;
@@ -18,7 +19,11 @@ const SEEN: f64 = 1e-9;
 /// # Errors
 /// If the file cannot be read or has errors, or there is no such chain.
 pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Failure> {
-    let content = Content::Bodies(Box::new(mechanism(arguments)?));
+    let mut content = bodies(arguments)?;
+    if let Content::Rows(Described::Linkage(linkage)) = &mut content {
+        set(arguments, linkage)?;
+        return rows::chain(arguments, content);
+    }
     let (description, around) = rows::taken(arguments, content)?;
     if let Around::Bodies(both) = &around {
         let (mechanism, chain) = &**both;
@@ -30,20 +35,16 @@ pub fn from_urdf(arguments: &RobotArguments) -> Result<(Description, Around), Fa
     Ok((description, around))
 }
 
-/// All of the file that the arguments name.
+/// What is in the file that the arguments name: a tree of bodies, or a linkage.
 ///
 /// # Errors
 /// If the file cannot be read or has errors.
-pub fn mechanism(arguments: &RobotArguments) -> Result<Mechanism, Failure> {
-    let name = arguments.robot.as_str();
+pub fn bodies(arguments: &RobotArguments) -> Result<Content, Failure> {
     let found = file(arguments, Kind::Bodies)?;
     if found.apart > SEEN {
-        note(&format!("{name}: note: {}", words().read_apart(found.apart)));
+        note(&format!("{}: note: {}", arguments.robot, words().read_apart(found.apart)));
     }
-    match found.content {
-        Content::Bodies(mechanism) => Ok(*mechanism),
-        Content::Rows(_) | Content::Par(_) => Err(unknown_robot(name)),
-    }
+    Ok(found.content)
 }
 
 /// The most bytes of a mesh, and of all together, that the page is given.

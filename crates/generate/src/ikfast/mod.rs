@@ -10,7 +10,7 @@ use super::inverse::MAX;
 use super::tables::wrapped;
 use super::{PackageOptions, Solver, Unable, Wanted};
 use denavit::description::{Description, JointKind};
-use denavit::inverse::derivation::{Difference, Motion, NormalChain, Unknown};
+use denavit::inverse::derivation::{NormalChain, Unknown};
 use denavit::robot::Robot;
 use denavit::space::JointSpace;
 use denavit_emit::{Attachment, File, Language, Routine};
@@ -203,14 +203,11 @@ fn roots(
     let mut all = vec![[1, 1]; joints];
     let mut is_taken: Vec<bool> = (0..joints).map(|j| given.contains(&j)).collect();
     let moved =
-        |joint: usize, axes: &[usize]| chain.inverse_coupling[joint].iter().any(|(k, _)| axes.contains(k));
+        |joint: usize, axes: &[usize]| chain.drivers.inverse[joint].iter().any(|(k, _)| axes.contains(k));
     for (unknown, own) in unknowns.iter().zip(strides).filter(|(_, own)| own[0] > 1) {
         let axes: Vec<usize> = match *unknown {
             Unknown::Slide(axis) => vec![axis],
-            Unknown::Angle(Difference { group, from, to }) => {
-                let is_in = |m: Motion| matches!(m, Motion::Turn { group: g, node, .. } if g == group && from < node && node <= to);
-                (0..chain.axes.len()).filter(|&k| is_in(chain.axes[k].motion)).collect()
-            }
+            Unknown::Angle(d) => chain.axes_between(d).into_iter().map(|x| x.0).collect(),
         };
         let free = |j: &usize| !is_taken[*j];
         let near = (0..joints).filter(free).find(|&j| moved(j, &axes));

@@ -63,8 +63,8 @@ pub use srdf::{Group, NoEnds, read_srdf};
 pub use table::{TableKind, TableOptions, read_table, read_table_robot, write_table, write_tree_table};
 pub use toolbox::{Language, read_program};
 pub use tree::{
-    Alikeness, Body, Chain, Follows, Joint, JointDrive, Likeness, Look, Mass, Mechanism, NoChain, Placing,
-    Shape, Unweighed,
+    Alikeness, Body, Chain, Follows, Hold, Joint, JointDrive, Keeps, Likeness, Look, Mass, Mechanism,
+    NoChain, Placing, Shape, Unweighed,
 };
 pub use urdf::{Reading, read_urdf, read_xacro, write_urdf};
 pub use value::{Measure, NotSet, read_value};

@@ -137,6 +137,10 @@ fn mobility_is_that_of_the_prototype() {
         ("four-bar", 4, 1),
         ("five-bar", 5, 2),
         ("slider-crank", 4, 1),
+        ("irb660", 13, 4),
+        ("kr-pa", 13, 4),
+        ("irb2400", 9, 6),
+        ("four-bar-gripper", 7, 1),
     ] {
         let loops = Loops::new(&catalogued(name)).expect("all values are there");
         let m = mobility(&loops).unwrap_or_else(|| panic!("{name} closes"));
@@ -165,6 +169,10 @@ fn every_assembly_closes_and_modes_are_different() {
         ("four-bar", 2),
         ("five-bar", 2),
         ("slider-crank", 2),
+        ("irb660", 8),
+        ("kr-pa", 8),
+        ("irb2400", 2),
+        ("four-bar-gripper", 4),
     ] {
         let loops = Loops::new(&catalogued(name)).expect("values");
         let mut random = Random(7);

@@ -5,8 +5,8 @@ use crate::linkages::{Between, SR400, anywhere, catalogued, linkage, par};
 use denavit::catalogue;
 use denavit::closure::{Loops, findings};
 use denavit::description::{
-    Convention, Decimals, Described, Severity, line_column, read_par, read_robot, read_toml, write_linkage,
-    write_linkage_par,
+    Convention, Decimals, Described, NoPar, Severity, line_column, read_par, read_robot, read_toml,
+    write_linkage, write_linkage_par,
 };
 
 #[test]
@@ -16,20 +16,28 @@ fn what_is_written_reads_back_to_the_same() {
         let text = write_linkage(&l);
         let back = linkage(&text);
         assert_eq!(write_linkage(&back), text, "{name}");
-        let file = write_linkage_par(&l).unwrap_or_else(|why| panic!("{name}: {why:?}"));
-        let from_par = par(&file.text);
+        // A joint that follows another has no place in a `.par` file.
+        let file = match write_linkage_par(&l) {
+            Ok(file) => Some(file.text),
+            Err(why) => {
+                assert_eq!((name, why), ("four-bar-gripper", NoPar::Follows("right crank".into())));
+                None
+            }
+        };
+        let from_par = file.as_deref().map_or_else(|| back.clone(), par);
+        let file = file.unwrap_or_default();
         let [a, b, c] = [&l, &back, &from_par].map(|l| Loops::new(l).expect("values"));
         let mut random = Random(17);
         let mut closed = 0;
         for _ in 0..40 {
             let q = anywhere(&a, &mut random);
             let [x, y, z] = [&a, &b, &c].map(|l| l.assemblies(&q));
-            assert_eq!((x.len(), x.len()), (y.len(), z.len()), "{name}\n{}", file.text);
+            assert_eq!((x.len(), x.len()), (y.len(), z.len()), "{name}\n{file}");
             for ((x, y), z) in x.iter().zip(&y).zip(&z) {
                 closed += 1;
                 assert_eq!(x.passive, y.passive, "{name}");
                 let near = x.passive.iter().zip(&z.passive).all(|(p, o)| ((p - o) / 2.0).sin().abs() < 1e-9);
-                assert!(near, "{name}: {:?} {:?}\n{}", x.passive, z.passive, file.text);
+                assert!(near, "{name}: {:?} {:?}\n{}", x.passive, z.passive, file);
             }
         }
         assert!(closed > 10, "{name}");

@@ -98,6 +98,57 @@ fn a_five_bar_reaches_a_point_in_four_ways() {
     assert!(inverse.solve(&above).is_out_of_plane);
 }
 
+/// The same in planes that stand upright and aslant.
+#[test]
+fn planes_in_space_have_closed_forms() {
+    let mut random = Random(303);
+    let text = denavit::catalogue::linkage_text("five-bar").unwrap();
+    for turned in [
+        "alpha = \"90 deg\"",
+        "gamma = \"30 deg\"\nalpha = \"-90 deg\"",
+        "gamma = \"40 deg\"\nalpha = \"0.7\"\nb = 0.3",
+    ] {
+        // Both arms stand on the base.
+        let text = text
+            .replace("name = \"left arm\"", &format!("name = \"left arm\"\n{turned}"))
+            .replace("after = \"base\"", &format!("after = \"base\"\n{turned}"));
+        let five = linkage(&text);
+        for wanted in [Wanted::Position, Wanted::Pose] {
+            let inverse = ClosedInverse::new(&five, None, wanted).unwrap();
+            // A pose is one number more than there are joints.
+            assert_eq!(inverse.is_closed_form(), wanted == Wanted::Position, "{turned}");
+        }
+        let (found, lost) = compare(turned, &five, Wanted::Position, 60, &mut random);
+        assert_eq!(lost, 0);
+        assert!(found > 120, "{found}");
+        let inverse = ClosedInverse::new(&five, None, Wanted::Position).unwrap();
+        let beside = Transform::from_rotation_translation(Rotation::identity(), Vector([0.3, 0.2, 0.1]));
+        assert!(inverse.solve(&beside).is_out_of_plane, "{turned}");
+    }
+    // Poses of a plane: a platform on three legs.
+    let legs = upright_platform();
+    let inverse = ClosedInverse::new(&legs, None, Wanted::Pose).unwrap();
+    assert!(inverse.is_closed_form());
+    let (found, lost) = compare("upright platform", &legs, Wanted::Pose, 40, &mut random);
+    assert!(lost == 0 && found > 80, "{found}, {lost} lost");
+}
+
+/// Three legs of two links under a triangle, in the plane of x and z of the base.
+fn upright_platform() -> Linkage {
+    linkage(
+        "name = \"three legs\"\nconvention = \"khalil\"\ntip = \"platform\"\n\
+         [[joints]]\nname = \"a1\"\nalpha = \"90 deg\"\ntheta = \"q1\"\n[[joints]]\nname = \"b1\"\nd = 0.5\ntheta = \"p1\"\n\
+         [[joints]]\nname = \"platform\"\nd = 0.6\ntheta = \"p2\"\n\
+         [[joints]]\nname = \"a2\"\nafter = \"base\"\nalpha = \"90 deg\"\nd = 1\ntheta = \"q2\"\n\
+         [[joints]]\nname = \"b2\"\nd = 0.6\ntheta = \"p3\"\n\
+         [[joints]]\nname = \"a3\"\nafter = \"base\"\nb = 0.8\nalpha = \"90 deg\"\nd = 0.5\ntheta = \"q3\"\n\
+         [[joints]]\nname = \"b3\"\nd = 0.5\ntheta = \"p4\"\n\
+         [[closures]]\nleft = { after = \"b2\", d = 0.5, theta = \"p5\" }\nright = { after = \"platform\", d = 0.3 }\n\
+         [[closures]]\nleft = { after = \"b3\", d = 0.6, theta = \"p6\" }\n\
+         right = { after = \"platform\", gamma = \"50 deg\", d = 0.3 }\n",
+    )
+}
+
 /// Three legs of two links under a triangle: three joints driven, poses of the plane, the loops one dyad after the other.
 #[test]
 fn a_planar_platform_on_three_legs_reaches_poses_in_eight_ways() {

@@ -3,6 +3,7 @@
 mod attack;
 mod axes;
 mod common;
+mod coupled;
 mod description;
 mod description_bytes;
 mod description_counted;
@@ -35,6 +36,7 @@ mod linkages_inverse;
 mod mechanism;
 mod members;
 mod mjcf;
+mod mjcf_loops;
 mod motion_jerk;
 mod motion_jerk_torques;
 mod motion_plan;

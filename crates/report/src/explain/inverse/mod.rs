@@ -19,8 +19,8 @@ use denavit::description::Description;
 use denavit::geometry::Transform;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{
-    Condition, Equations, Form, Goal, InverseModel, InverseOptions, Length, Motion, Norm, NormalChain, Split,
-    Step, Stuck, Task, Unknown, axis_unknown, equations, settled,
+    Condition, Equations, Form, Goal, InverseModel, InverseOptions, Length, Norm, NormalChain, Split, Step,
+    Stuck, Task, Unknown, axis_unknown, equations, settled,
 };
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -301,7 +301,7 @@ impl Facts<'_> {
             // The variable by its axes, each by the steps that lead to it.
             let mut terms: Vec<(Rational, Expr, Expr)> = vec![];
             let mut known = true;
-            for (k, factor) in &chain.inverse_coupling[j] {
+            for (k, factor) in &chain.drivers.inverse[j] {
                 let before = terms.len();
                 match axis_unknown(chain, *k) {
                     x @ Unknown::Slide(_) => {
@@ -311,7 +311,8 @@ impl Facts<'_> {
                         }
                     }
                     Unknown::Angle(d) => {
-                        let reversed = matches!(chain.axes[*k].motion, Motion::Turn { reversed: true, .. });
+                        // The angle of an axis that drives is that axis's, or its negative.
+                        let reversed = chain.form(d).iter().any(|x| *x < 0);
                         for (e, _, backwards) in reading.path(d, self.steps.len()).unwrap_or_default() {
                             let (name, meaning) = reading.name(Unknown::Angle(e));
                             let factor = if backwards == reversed { factor.clone() } else { -factor };

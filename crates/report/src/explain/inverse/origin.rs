@@ -5,7 +5,7 @@ use crate::document::Factor;
 use crate::explained::Component;
 use denavit::description::Convention;
 use denavit::geometry::Rotation;
-use denavit::inverse::derivation::{Element, Entry, Kind, Motion, NormalChain, Source, Split};
+use denavit::inverse::derivation::{Element, Entry, Kind, Motion, NormalChain, Source, Split, Unknown};
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational};
 use std::ops::Range;
@@ -262,12 +262,8 @@ impl<'a> Matrices<'a> {
         let occurs = |k: usize| {
             cut.sides.iter().any(|(_, c)| {
                 c.atoms().into_iter().any(|a| match chain.algebra.kind(a) {
-                    Kind::Slide(s) => s == k,
-                    Kind::Cos(n) | Kind::Sin(n) => {
-                        let d = chain.differences[n];
-                        matches!(chain.axes[k].motion, Motion::Turn { group, node, .. }
-                            if group == d.group && (d.from + 1..=d.to).contains(&node))
-                    }
+                    Kind::Slide(s) => chain.moves_with(k, Unknown::Slide(s)),
+                    Kind::Cos(n) | Kind::Sin(n) => chain.moves_with(k, Unknown::Angle(chain.differences[n])),
                     _ => false,
                 })
             })

@@ -1,7 +1,7 @@
 //! Polynomials of a derivation as formulas that a person would write.
 
 use denavit::inverse::derivation::{
-    Difference, Kind, Known, Motion, Norm, NormalChain, Step, Unknown, axis_unknown, index, outermost, split,
+    Difference, Kind, Known, Lattice, Norm, NormalChain, Step, Unknown, axis_unknown, index, outermost, split,
 };
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
 use denavit_symbolic::{Expr, Rational};
@@ -60,7 +60,7 @@ impl<'a> Reading<'a> {
                 };
             }
             if let Some(step) = steps.get(i) {
-                known.learn(step.unknown);
+                known.learn(chain, step.unknown);
                 match step.unknown {
                     Unknown::Angle(d) => edges.push((d, Some(i))),
                     Unknown::Slide(k) => slides.push((k, i)),
@@ -86,6 +86,9 @@ impl<'a> Reading<'a> {
 
     /// The steps (or given angles) that lead from node to node, with signs, by the first `steps` steps.
     pub fn path(&self, d: Difference, steps: usize) -> Option<Vec<Leg>> {
+        if self.chain.has_followers() {
+            return self.sum(d, steps);
+        }
         let mut ways: Vec<(usize, Vec<Leg>)> = vec![(d.from, vec![])];
         let mut pending = VecDeque::from([0]);
         while let Some(at) = pending.pop_front() {
@@ -108,6 +111,19 @@ impl<'a> Reading<'a> {
             }
         }
         None
+    }
+
+    /// The same where axes follow others: an angle is a sum of whole multiples of those that are known.
+    fn sum(&self, d: Difference, steps: usize) -> Option<Vec<Leg>> {
+        let edges: Vec<_> = self.edges.iter().filter(|e| e.1.is_none_or(|s| s < steps)).collect();
+        let mut lattice = Lattice::default();
+        edges.iter().for_each(|e| lattice.add(&self.chain.form(e.0)));
+        let made = lattice.made(&self.chain.form(d))?;
+        let legs = edges
+            .iter()
+            .zip(made)
+            .flat_map(|((e, step), factor)| (0..factor.unsigned_abs()).map(move |_| (*e, *step, factor < 0)));
+        Some(legs.collect())
     }
 
     /// The steps whose results are in a polynomial that is known after `steps` steps.
@@ -306,14 +322,13 @@ impl<'a> Reading<'a> {
         }
         let index = index(self.chain, x);
         let is_sum = value.symbols().len() > 1
-            && self.chain.axes.iter().all(|a| match (a.motion, x) {
-                (Motion::Turn { group, node, reversed }, Unknown::Angle(d)) => {
-                    group != d.group
-                        || !(d.from + 1..=d.to).contains(&node)
-                        || !reversed && a.value.as_symbol().is_some_and(|s| s.name().starts_with('q'))
-                }
-                _ => true,
-            });
+            && match x {
+                Unknown::Angle(d) => self.chain.axes_between(d).iter().all(|&(k, negative)| {
+                    let symbol = self.chain.axes[k].value.as_symbol();
+                    !negative && symbol.is_some_and(|s| s.name().starts_with('q'))
+                }),
+                Unknown::Slide(_) => true,
+            };
         let taken = |s: &str| self.chain.parameters.iter().any(|p| *p.name() == *s);
         let mut name = format!("{}{index}", if is_sum { "q" } else { "φ" });
         while taken(&name) || self.chain.variables.iter().any(|v| *v.name() == *name) {

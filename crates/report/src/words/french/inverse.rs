@@ -347,7 +347,8 @@ impl Inverse for French {
                 format!("la ligne {row} tourne et glisse à la fois (liaison hélicoïdale)")
             }
             Unsuitable::Coupling => {
-                "les variables articulaires ne se déduisent pas des angles et des déplacements des lignes"
+                "les angles des lignes ne sont pas des sommes de multiples entiers d’autant d’entre eux qu’il y a de \
+                 variables articulaires"
                     .into()
             }
             Unsuitable::NoJoint => say!("le robot n'a aucune articulation"),

@@ -349,7 +349,9 @@ impl Inverse for German {
         match why {
             Unsuitable::Helical(row) => format!("Zeile {row} dreht und schiebt zugleich (Schraubgelenk)"),
             Unsuitable::Coupling => {
-                "aus den Winkeln und Verschiebungen der Zeilen ergeben sich die Gelenkvariablen nicht".into()
+                "die Winkel der Zeilen sind keine Summen ganzer Vielfacher von so vielen von ihnen, wie es \
+                 Gelenkvariablen gibt"
+                    .into()
             }
             Unsuitable::NoJoint => "der Roboter hat kein Gelenk".into(),
             Unsuitable::TooLong(n) => {

@@ -339,7 +339,8 @@ impl Inverse for Spanish {
                 format!("la fila {row} gira y se desliza a la vez (articulación helicoidal)")
             }
             Unsuitable::Coupling => {
-                "las variables articulares no se deducen de los ángulos y los desplazamientos de las filas"
+                "los ángulos de las filas no son sumas de múltiplos enteros de tantos de ellos como variables \
+                 articulares hay"
                     .into()
             }
             Unsuitable::NoJoint => "el robot no tiene ninguna articulación".into(),

@@ -13,6 +13,7 @@ mod write_par;
 
 pub use chain::RowChain;
 pub use par::read_par;
+pub(super) use place::rows_of;
 pub(super) use write_par::fixed_rows;
 pub use write_par::{NoPar, ParFile, write_par};
 pub(in crate::description) use write_par::{columns, with_frames_as_rows, with_plain_variables};

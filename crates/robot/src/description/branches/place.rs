@@ -227,7 +227,7 @@ fn along_normals(placed: &[Placed]) -> Result<Vec<Pose>, NotNamed> {
 }
 
 /// A constant transform as rows.
-pub(super) fn rows_of(turns: &Turns) -> Vec<Row> {
+pub(in crate::description) fn rows_of(turns: &Turns) -> Vec<Row> {
     let last = turns.x.len();
     if last == 0 {
         return vec![Row { theta: turns.z[0].angle, d: turns.z[0].length, ..Row::still() }];

@@ -9,6 +9,7 @@
 //! - [`Linkage::chain`]: the serial chain that a linkage is where its passive joints are affine in the driven ones.
 
 mod affine;
+mod bodies;
 mod chain;
 pub mod dyad;
 mod mode;
@@ -24,7 +25,7 @@ pub use mode::{Mode, NoMode, Sign};
 pub use order::{Dyad, Plan, Step, Sum, Unsolved, Vectors};
 pub use plane::{Fault, Planar, Term};
 pub use spherical::{Between, Spherical};
-pub use towards::{NotTowards, Towards, Wanted};
+pub use towards::{NotTowards, TipPlane, Towards, Wanted};
 pub use write_par::write_linkage_par;
 
 use super::branches::{NamedFrame, RowTree};

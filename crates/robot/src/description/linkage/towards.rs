@@ -24,8 +24,8 @@ pub enum Wanted {
 pub struct Towards {
     /// Its driven joints are where the tip is to be ([`Towards::driven`]).
     pub linkage: Linkage,
-    /// Whether all happens in the plane of x and y of the base: the tip's height over it.
-    pub height: Option<Expr>,
+    /// The plane in which all happens, if all does.
+    pub plane: Option<TipPlane>,
     /// Of the driven joints of the linkage that is asked about, q1 first, the place among the passive ones of this one; then of its
     /// passive joints.
     pub places: [Vec<usize>; 2],
@@ -33,6 +33,15 @@ pub struct Towards {
     pub tip: String,
     rest: Rotation<Expr>,
     wanted: Wanted,
+}
+
+/// The plane in which a linkage moves.
+#[derive(Clone, Debug)]
+pub struct TipPlane {
+    /// Its axes in the base: x and y are along it.
+    pub axes: Rotation<Expr>,
+    /// How high the tip stands over that through the base's origin.
+    pub height: Expr,
 }
 
 /// Why there is no such linkage.
@@ -95,7 +104,7 @@ impl Linkage {
     pub fn towards(&self, tip: Option<&str>, wanted: Wanted) -> Result<Towards, NotTowards> {
         let numbers = self.in_numbers();
         let (tip, way, pose) = numbers.way(tip)?;
-        let height = numbers.height(&way, &pose);
+        let plane = numbers.plane_of_tip(&way, &pose);
         // The transform along the way with all joints at 0.
         let still = |e: Expr| e.substitute(|s| numbers.kind(s).map(|_| Expr::int(0)));
         let rotation = way.iter().fold(numbers.tree.base.rotation, |r, &j| {
@@ -111,18 +120,20 @@ impl Linkage {
         // The frame of the tip as rows that do not move, for a closure stands on one.
         let on = way.last().copied();
         let right = linkage.tree.fixed(on, &pose)?;
-        // What is driven: from the origin of the base, whatever its transform.
-        let back = numbers.tree.base.inverse();
+        // What is driven: from the origin of the base, whatever its transform, along the axes of the plane.
+        let axes = plane.as_ref().map_or_else(Rotation::identity, |p| p.axes);
+        let back = numbers.tree.base.inverse() * Transform::from_rotation_translation(axes, Vector::zero());
+        let back = back.map(readable::settled);
         let start = linkage.tree.fixed(None, &back)?;
         let names: Vec<Symbol> = (1..=6).map(|k| Symbol::new(&format!("tip {k}"))).collect();
         let free = Symbol::new("free 1");
         let (r, p) = (JointKind::Revolute, JointKind::Prismatic);
         let x = linkage.tree.push(mover(90, 90, p, names[0]), start);
         let y = linkage.tree.push(mover(-90, -90, p, names[1]), Some(x));
-        let end = match (height, wanted) {
-            (Some(height), _) => {
+        let end = match (&plane, wanted) {
+            (Some(TipPlane { height, .. }), _) => {
                 let turn = if wanted == Wanted::Pose { names[2] } else { free };
-                let row = Row { d: height, ..mover(-90, 90, r, turn) };
+                let row = Row { d: *height, ..mover(-90, 90, r, turn) };
                 linkage.tree.push(row, Some(y))
             }
             (None, _) => {
@@ -138,10 +149,11 @@ impl Linkage {
                 linkage.tree.push(square, Some(roll))
             }
         };
-        let place = Transform::from_rotation_translation(
-            if height.is_some() { rest } else { Rotation::identity() },
-            Vector::zero(),
-        );
+        let place = match &plane {
+            Some(plane) => (plane.axes.inverse() * rest).map(readable::settled),
+            None => Rotation::identity(),
+        };
+        let place = Transform::from_rotation_translation(place, Vector::zero());
         let left = linkage.tree.fixed(Some(end), &place)?;
         let side = |after| Side { after, row: Row::still() };
         linkage.closures.push(Closure {
@@ -151,19 +163,27 @@ impl Linkage {
             span: 0..0,
         });
         let places = linkage.numbered(&numbers, &names);
-        Ok(Towards { linkage, height, places, tip, rest, wanted })
+        Ok(Towards { linkage, plane, places, tip, rest, wanted })
     }
 
-    /// How high the tip stands over the plane of x and y of the base, if all axes that turn are along z of the base, and all that slide
-    /// across it, exactly.
-    fn height(&self, way: &[usize], pose: &Transform<Expr>) -> Option<Expr> {
+    /// The plane in which the linkage moves, if all axes that turn are parallel, and all that slide across them, exactly: that of x and y
+    /// of the base where they are along its z.
+    fn plane_of_tip(&self, way: &[usize], pose: &Transform<Expr>) -> Option<TipPlane> {
         let mut frames: Vec<Transform<Expr>> = vec![];
-        let z = |x: &Transform<Expr>| x.rotation.z();
-        let along = |v: Vector<Expr>| [v[0], v[1]].iter().all(|&e| equal(e, Expr::int(0)).is_equal());
-        let across = |v: Vector<Expr>| equal(v[2], Expr::int(0)).is_equal();
-        let fits = |x: &Transform<Expr>, kind: JointKind| match kind {
-            JointKind::Revolute => along(z(x)),
-            JointKind::Prismatic => across(z(x)),
+        let mut axes: Option<Rotation<Expr>> = None;
+        let is_zero = |e: Expr| equal(e, Expr::int(0)).is_equal();
+        let is_along = |v: Vector<Expr>| is_zero(v[0]) && is_zero(v[1]);
+        let mut slides: Vec<Vector<Expr>> = vec![];
+        let mut fits = |x: &Transform<Expr>, kind: JointKind| {
+            let z = x.rotation.z();
+            if kind == JointKind::Prismatic {
+                slides.push(z);
+                return true;
+            }
+            // The first axis that turns says which plane it is.
+            let own = || if is_along(z) { Rotation::identity() } else { x.rotation };
+            let across = axes.get_or_insert_with(own).inverse() * z;
+            is_along(across.map(readable::settled))
         };
         // With all joints at 0; the axes of what turns stay where they are, and those of slides stay across.
         let still = |row: &Row| {
@@ -194,8 +214,14 @@ impl Linkage {
                 return None;
             }
         }
+        let axes = axes.unwrap_or_else(Rotation::identity);
+        let across = |v: &Vector<Expr>| is_zero(readable::settled(axes.z().dot(*v)));
+        if !slides.iter().all(across) {
+            return None;
+        }
         let last = way.last().map_or(self.tree.base, |&j| frames[j]);
-        Some(readable::settled((last * *pose).translation[2]))
+        let height = readable::settled(axes.z().dot((last * *pose).translation));
+        Some(TipPlane { axes, height })
     }
 
     /// Numbers the joints, those with these names as driven, all others as passive; the places of the driven and of the passive joints of
@@ -255,15 +281,17 @@ impl Towards {
     pub fn driven(&self, pose: &Transform<f64>) -> Option<Vec<f64>> {
         let number = |e: Expr| e.eval(|_| None).unwrap_or(f64::NAN);
         let p = pose.translation;
-        if let Some(height) = self.height {
+        if let Some(TipPlane { axes, height }) = &self.plane {
+            let back = axes.map(number).inverse();
+            let p = back * p;
             let size = p.norm().max(1.0);
-            if (p[2] - number(height)).abs() > ALONG * size {
+            if (p[2] - number(*height)).abs() > ALONG * size {
                 return None;
             }
             if self.wanted == Wanted::Position {
                 return Some(vec![p[0], p[1]]);
             }
-            let turn = pose.rotation * self.rest.map(number).inverse();
+            let turn = back * pose.rotation * (back * self.rest.map(number)).inverse();
             let z = turn.z();
             if z[0].hypot(z[1]) > ALONG || z[2] < 0.0 {
                 return None;

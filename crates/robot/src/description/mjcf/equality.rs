@@ -1,4 +1,4 @@
-//! `<equality>`: joints that follow others.
+//! `<equality>`: joints that follow others, and loops that are closed.
 
 use super::super::diagnostic::nearest;
 use super::super::tree::moved;
@@ -12,7 +12,15 @@ impl<'a> Mjcf<'a, '_> {
     /// The couplings of all models that are there.
     pub(super) fn couplings(&mut self) {
         let mut said: Vec<&str> = vec![];
-        for (model, prefix, suffix) in std::mem::take(&mut self.parts) {
+        let parts = std::mem::take(&mut self.parts);
+        self.driven = self.driven(&parts);
+        // Couplings change where joints are at 0.
+        let has_loops = |part: &(usize, String, String)| {
+            let root = self.models[part.0].root;
+            root.all("equality").any(|e| e.children().any(|c| matches!(c.name(), Some("connect" | "weld"))))
+        };
+        let shown_at = if parts.iter().any(has_loops) { self.shown() } else { vec![] };
+        for (model, prefix, suffix) in parts {
             let root = self.models[model].root;
             for element in root.all("equality").flat_map(|e| e.children()) {
                 if !self.works(1, &element) {
@@ -24,17 +32,16 @@ impl<'a> Mjcf<'a, '_> {
                 } else if name == "joint" {
                     element.only(JOINT, &mut self.reader.out);
                     self.coupling(element, &|n: &str| format!("{prefix}{}{suffix}", super::plain(n)), model);
+                } else if matches!(name, "connect" | "weld") {
+                    let full = |n: &str| format!("{prefix}{}{suffix}", super::plain(n));
+                    let hold = self.hold(element, &full, model, &shown_at);
+                    self.holds.extend(hold);
                 } else if !said.contains(&name) {
                     said.push(name);
-                    let message = match name {
-                        "connect" | "weld" => format!(
-                            "<{name}> closes a loop, which is not read: joints move as if it were not there"
-                        ),
-                        _ => format!(
-                            "<{}> is not read: joints move as if it were not there",
-                            shown(element.full_name())
-                        ),
-                    };
+                    let message = format!(
+                        "<{}> is not read: joints move as if it were not there",
+                        shown(element.full_name())
+                    );
                     self.reader.out.warning(element.span(), message);
                 }
             }

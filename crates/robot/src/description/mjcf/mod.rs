@@ -12,6 +12,7 @@ mod geoms;
 mod include;
 mod joints;
 mod keyframes;
+mod loops;
 mod turns;
 mod write;
 
@@ -23,7 +24,7 @@ use super::Decimals;
 use super::diagnostic::{Diagnostics, nearest};
 use super::reader::Reader;
 use super::sources::{Files, Sources};
-use super::tree::Mechanism;
+use super::tree::{Hold, Mechanism};
 use super::urdf::{Draft, Links, Reading, plain};
 use super::xml::{Element, shown};
 use crate::geometry::Axis;
@@ -134,6 +135,10 @@ struct Mjcf<'a, 'r> {
     model_of: HashMap<usize, usize>,
     /// Sites that have other names here, by where they stand: what they are called in the file and here.
     renamed: Vec<(Range<usize>, String, String)>,
+    /// Closed loops.
+    holds: Vec<Hold>,
+    /// The joints that actuators drive.
+    driven: Vec<String>,
 }
 
 /// Reads a model of MuJoCo's, with the files that it includes and the models that it attaches.
@@ -201,6 +206,8 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         weights: HashMap::new(),
         model_of: HashMap::new(),
         renamed: vec![],
+        holds: vec![],
+        driven: vec![],
     };
     mjcf.assets();
     mjcf.world(root);
@@ -212,7 +219,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
     mjcf.say_renamed();
     let gravity = gravity(root, mjcf.reader);
     let keyed = mjcf.keyframes(root);
-    let Mjcf { reader, quaternions, links, drafts, .. } = mjcf;
+    let Mjcf { reader, quaternions, links, drafts, holds, driven, .. } = mjcf;
     for (span, count, said) in quaternions.into_values() {
         let places = if count == 1 { String::new() } else { format!(", {count} places") };
         reader.out.note(span, format!("{said}{places}"));
@@ -230,6 +237,9 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         mechanism.poses.push((name, pose));
     }
     mechanism.gravity = gravity;
+    mechanism.holds = holds;
+    let is_driven = |j: &usize| driven.contains(&mechanism.joints[*j].name);
+    mechanism.driven = (0..mechanism.joints.len()).filter(is_driven).collect();
     Some(mechanism)
 }
 
@@ -376,9 +386,13 @@ fn truth(text: &super::xml::Text, reader: &mut Reader) -> Option<bool> {
 fn beside(root: Element, out: &mut Diagnostics) {
     let mut left: Vec<&str> = vec![];
     let mut first = None;
+    let closes = |e: Element| e.children().any(|c| matches!(c.name(), Some("connect" | "weld")));
+    let has_loops = root.all("equality").any(closes);
     for child in root.children() {
         match child.name() {
             Some(name) if READ.contains(&name) => {}
+            // Of closed loops they say which joints are driven.
+            Some("actuator") if has_loops => {}
             Some("option") if child.attribute("gravity").is_some() => {}
             Some("option") if child.all("flag").any(|f| f.attribute("gravity").is_some()) => {}
             Some(name) if BESIDE.contains(&name) => {

@@ -154,6 +154,11 @@ impl Placing<'_> {
 
     fn quaternion(&mut self, text: &Text) -> Option<Rotation<Expr>> {
         let numbers = self.reader.numbers(text, "quat", 4)?;
+        self.of_quaternion(text, numbers)
+    }
+
+    /// The rotation of the four numbers of a quaternion, which stand in a text.
+    pub fn of_quaternion(&mut self, text: &Text, numbers: Vec<(Rational, Text)>) -> Option<Rotation<Expr>> {
         let places = numbers.iter().map(|n| decimals::places(n.1.text)).max().unwrap_or(0);
         let q: Vec<Rational> = numbers.into_iter().map(|n| n.0).collect();
         let [w, x, y, z] = [0, 1, 2, 3].map(|k| q[k].clone());

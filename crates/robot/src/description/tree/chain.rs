@@ -156,7 +156,7 @@ impl Mechanism {
     }
 
     /// The joints from a body to the root, where these are the joints to bodies.
-    fn to_root(&self, body: usize, to: &[Option<usize>]) -> Vec<usize> {
+    pub(super) fn to_root(&self, body: usize, to: &[Option<usize>]) -> Vec<usize> {
         let mut all = vec![];
         let mut body = body;
         while let Some(joint) = to[body].filter(|_| all.len() <= self.joints.len()) {

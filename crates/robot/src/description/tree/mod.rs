@@ -5,6 +5,7 @@
 
 mod chain;
 mod compared;
+mod holds;
 mod limits;
 mod masses;
 mod of;
@@ -15,6 +16,7 @@ mod written;
 pub use chain::{Chain, NoChain};
 pub(super) use chain::{moved, rest, turned};
 pub use compared::{Alikeness, Likeness};
+pub use holds::{Hold, Keeps};
 pub use masses::Unweighed;
 pub use poses::Placing;
 pub(super) use written::{Solids, joint_names};
@@ -38,6 +40,11 @@ pub struct Mechanism {
     pub poses: Vec<(String, Vec<Expr>)>,
     /// The acceleration of gravity in the root's frame, m/s², if it is given.
     pub gravity: Option<[Expr; 3]>,
+    /// Closed loops. Chains through the tree are taken as if they were not there: [`Linkage::of_mechanism`](super::Linkage::of_mechanism)
+    /// is the tree with them.
+    pub holds: Vec<Hold>,
+    /// The joints that are said to be driven.
+    pub driven: Vec<usize>,
 }
 
 /// A body and its frame.

@@ -144,6 +144,8 @@ impl<'d> Growing<'d> {
             root: 0,
             poses: vec![],
             gravity: None,
+            holds: vec![],
+            driven: vec![],
         };
         let mut growing = Growing {
             tree,

@@ -51,8 +51,16 @@ impl Reader {
             joints.push(Joint { follows, ..draft.joint.clone() });
         }
         // A floating root is left out, so that bodies are those of the tree.
-        let mut mechanism =
-            Mechanism { name, bodies: links.bodies, joints, root, poses: vec![], gravity: None };
+        let mut mechanism = Mechanism {
+            name,
+            bodies: links.bodies,
+            joints,
+            root,
+            poses: vec![],
+            gravity: None,
+            holds: vec![],
+            driven: vec![],
+        };
         if first != root {
             let gone = first;
             mechanism.bodies.remove(gone);

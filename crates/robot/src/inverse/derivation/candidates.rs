@@ -101,7 +101,7 @@ impl Problem<'_> {
         let mut found = vec![];
         for e in &self.sides.found {
             let unknowns = known.unknowns(self.chain, &e.atoms);
-            if unknowns.is_empty() || unknowns.len() > 3 || known.rank(&unknowns) > 2 {
+            if unknowns.is_empty() || unknowns.len() > 3 || known.rank(self.chain, &unknowns) > 2 {
                 continue;
             }
             let origin = Origin::Entry(e.source);
@@ -138,7 +138,7 @@ impl Problem<'_> {
         let (pose, chain) = (side(true), side(false));
         let all: Vec<Atom> = pose.iter().chain(&chain).flat_map(|p| p.atoms()).collect();
         let open = known.unknowns(self.chain, &all);
-        if known.rank(&open) > MOST_UNKNOWNS {
+        if known.rank(self.chain, &open) > MOST_UNKNOWNS {
             return None;
         }
         let expanded = |on_pose: bool, polys: &[&Poly]| -> Option<Poly> {
@@ -173,10 +173,10 @@ impl Problem<'_> {
             _ => expanded(true, &pose)?.minus(&expanded(false, &chain)?).into(),
         };
         let mut unknowns = unknowns_of(&zero.plus);
-        if unknowns.len() > 1 && unknowns.len() <= 3 && known.rank(&unknowns) == 2 {
+        if unknowns.len() > 1 && unknowns.len() <= 3 && known.rank(self.chain, &unknowns) == 2 {
             // The sum of the squares of a·C2 + b·C23 and a·S2 + b·S23 holds θ3 alone.
             let mut basis = unknowns.clone();
-            basis.extend(known.third(&unknowns));
+            basis.extend(known.third(self.chain, &unknowns));
             for i in 0..basis.len() {
                 for j in i + 1..basis.len() {
                     let p = self.in_basis(known, &zero.plus, &[basis[i], basis[j]]);
@@ -187,7 +187,7 @@ impl Problem<'_> {
                 }
             }
         }
-        if unknowns.is_empty() || unknowns.len() > 3 || known.rank(&unknowns) > 2 {
+        if unknowns.is_empty() || unknowns.len() > 3 || known.rank(self.chain, &unknowns) > 2 {
             return None;
         }
         if unknowns.len() == 1 {
@@ -383,7 +383,7 @@ impl Problem<'_> {
                 s.unknowns.len() > 1 && {
                     let mut all = s.unknowns.clone();
                     all.extend([x, y]);
-                    known.rank(&all) == 2
+                    known.rank(self.chain, &all) == 2
                 }
             };
             let rows: Vec<(Rc<View>, &Seen)> = seen
@@ -391,8 +391,14 @@ impl Problem<'_> {
                 .filter(spans)
                 .take(PAIRS)
                 .filter_map(|s| {
-                    let zero = self.expanded(&s.zero)?;
-                    Some((self.view(&self.in_basis(known, &zero, &[x, y]), y), s))
+                    let zero = self.in_basis(known, &self.expanded(&s.zero)?, &[x, y]);
+                    // Where axes follow others, some angle may be none of these two and their sum or difference.
+                    let is_in =
+                        || known.unknowns(self.chain, &zero.atoms()).iter().all(|u| [x, y].contains(u));
+                    if self.chain.has_followers() && !is_in() {
+                        return None;
+                    }
+                    Some((self.view(&zero, y), s))
                 })
                 .filter(|(view, _)| {
                     let degree = view.keys().map(|k| k.0 + k.1).max().unwrap_or(0);

@@ -2,13 +2,17 @@
 //!
 //! Zᵢ turns about z or slides along it; Cᵢ is constant. A constant displacement along a joint's axis commutes with the
 //! joint, so those of parallel axes are brought to one place, at the outer ends of the chain into base and tool.
-//! Parallel turning axes form a *group* with potentials φ₀ = 0, φₖ = φₖ₋₁ ± θₖ: the angles that can occur in an
-//! equation are the differences of potentials.
+//! Parallel turning axes form a *group* with potentials φ₀ = 0, φₖ = φₖ₋₁ ± θₖ, the *nodes*: the angles that can occur in
+//! an equation are the differences of potentials. Of axes that [follow others](super::drivers) some come back to a
+//! potential that was there: it is one node, and angles that are the same whatever the joints are one unknown.
 
 use super::algebra::{Algebra, Column, Kind, Matrix, identity};
+use super::drivers::Drivers;
+use super::known::Unknown;
+use super::screws::{drivers, follow, gather, screws};
 use crate::description::{Description, JointKind};
-use crate::geometry::{Rotation, Transform, Vector, parallel};
-use crate::mechanism::{Affine, Lengths, Link, MovingAxes, MovingAxis, Robot};
+use crate::geometry::{Rotation, Transform, parallel};
+use crate::mechanism::{Affine, Robot};
 use crate::space::Periods;
 use denavit_symbolic::poly::Poly;
 use denavit_symbolic::{Expr, Rational, Ring, Symbol, readable};
@@ -33,8 +37,10 @@ pub enum Motion {
     Turn {
         /// The group, from 0.
         group: usize,
-        /// The potential behind it; `node − 1` is the one before.
-        node: usize,
+        /// The potential before it.
+        from: usize,
+        /// The potential behind it.
+        to: usize,
         /// True if it turns against the group's first axis.
         reversed: bool,
     },
@@ -62,6 +68,18 @@ pub struct Difference {
     pub to: usize,
 }
 
+impl Difference {
+    /// From the smaller node to the larger.
+    pub fn forwards(self) -> Self {
+        if self.from <= self.to { self } else { self.backwards() }
+    }
+
+    /// The negative.
+    pub fn backwards(self) -> Self {
+        Difference { from: self.to, to: self.from, ..self }
+    }
+}
+
 /// The normal form.
 #[derive(Debug)]
 pub struct NormalChain {
@@ -73,7 +91,7 @@ pub struct NormalChain {
     pub axes: Vec<Axis>,
     /// What is multiplied, base first; begins and ends with an axis (unless only part of the pose is given).
     pub elements: Vec<Element>,
-    /// For each group, how many axes it has.
+    /// For each group, how many nodes it has beside the first.
     pub groups: Vec<usize>,
     /// What was brought to the other side in front: U = base⁻¹ · T · tool⁻¹.
     pub base: Transform<Expr>,
@@ -83,10 +101,14 @@ pub struct NormalChain {
     pub pose: [Symbol; 12],
     /// All differences of potentials, in the order of their numbers.
     pub differences: Vec<Difference>,
+    /// For each difference its factors of the axes that drive; nothing else makes two angles the same.
+    pub forms: Vec<Vec<i64>>,
+    /// For each difference the first that is the same angle, and whether it is its negative.
+    same: Vec<(usize, bool)>,
     /// The algebra of all equations.
     pub algebra: Algebra,
-    /// For each joint variable the axes it is computed from, with factors: q = Σ factor·(value of the axis − offset).
-    pub inverse_coupling: Vec<Vec<(usize, Rational)>>,
+    /// Which axes the others follow. For each joint variable q = Σ factor·(value of the axis − offset) by `inverse`.
+    pub drivers: Drivers,
     /// For each joint variable, whether a whole turn of it brings all links back.
     pub goes_round: Vec<bool>,
 }
@@ -96,7 +118,8 @@ pub struct NormalChain {
 pub enum Unsuitable {
     /// A row turns and slides with one variable.
     Helical(usize),
-    /// The joint variables are not determined by the angles and displacements of the rows.
+    /// The joint variables are not determined by the angles and displacements of as many rows, or other rows do not turn
+    /// by whole multiples of those.
     Coupling,
     /// There is no joint.
     NoJoint,
@@ -113,9 +136,9 @@ impl std::fmt::Display for Unsuitable {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Unsuitable::Helical(row) => write!(f, "row {row} turns and slides at once (a helical joint)"),
-            Unsuitable::Coupling => {
-                f.write_str("the joint variables do not follow from the angles and displacements of the rows")
-            }
+            Unsuitable::Coupling => f.write_str(
+                "the angles of the rows are no sums of whole multiples of as many of them as there are joint variables",
+            ),
             Unsuitable::NoJoint => f.write_str("the robot has no joint"),
             Unsuitable::TooLong(n) => {
                 write!(f, "the robot has {n} joints; closed forms are derived for up to {MAX_AXES}")
@@ -135,14 +158,6 @@ pub enum End {
     Point,
 }
 
-/// An axis with what stands before it, while the chain is built.
-struct Screw {
-    before: Transform<Expr>,
-    form: Affine<Expr>,
-    kind: JointKind,
-    row: usize,
-}
-
 impl NormalChain {
     /// The normal form of a robot. Parameters with the value 0, and angles with a value, are taken at their values.
     ///
@@ -158,15 +173,14 @@ impl NormalChain {
         if screws.len() > MAX_AXES {
             return Err(Unsuitable::TooLong(screws.len()));
         }
-        if screws.len() != variables.len() {
-            return Err(Unsuitable::Coupling);
-        }
-        let mut tail = tail.map(readable::settled);
-        screws.iter_mut().for_each(|s| s.before = s.before.map(readable::settled));
         let turning: Vec<bool> = screws.iter().map(|s| s.kind == JointKind::Revolute).collect();
+        let drivers = drivers(&screws, &turning, variables.len()).ok_or(Unsuitable::Coupling)?;
+        let mut tail = follow(&mut screws, tail, &drivers).map(readable::settled);
+        screws.iter_mut().for_each(|s| s.before = s.before.map(readable::settled));
 
         // Groups of parallel axes, and displacements along them to one place.
-        let (mut motions, mut groups) = (vec![], vec![]);
+        let (mut motions, mut nodes): (Vec<Motion>, Vec<Vec<Vec<i64>>>) = (vec![], vec![]);
+        let mut at: Vec<usize> = vec![];
         let mut orientation: Option<(usize, bool, Rotation<Expr>)> = None;
         for (k, screw) in screws.iter().enumerate() {
             let turn =
@@ -180,11 +194,20 @@ impl NormalChain {
                 Some((g, flipped != parallel::reversed(&since.map(readable::settled))?))
             });
             let (group, reversed) = parallel.unwrap_or_else(|| {
-                groups.push(0);
-                (groups.len() - 1, false)
+                nodes.push(vec![vec![0; drivers.axes.len()]]);
+                at.push(0);
+                (nodes.len() - 1, false)
             });
-            groups[group] += 1;
-            motions.push(Motion::Turn { group, node: groups[group], reversed });
+            let from = at[group];
+            let own = drivers.factors[k].iter().map(|x| x.to_integer().unwrap_or(0));
+            let sign = if reversed { -1 } else { 1 };
+            let reached: Vec<i64> = nodes[group][from].iter().zip(own).map(|(x, y)| x + sign * y).collect();
+            let to = nodes[group].iter().position(|n| *n == reached).unwrap_or(nodes[group].len());
+            if to == nodes[group].len() {
+                nodes[group].push(reached);
+            }
+            at[group] = to;
+            motions.push(Motion::Turn { group, from, to, reversed });
             orientation = Some((group, reversed, Rotation::identity()));
         }
         gather(&mut screws, &mut tail, &turning);
@@ -230,17 +253,25 @@ impl NormalChain {
                 elements.push(Element::Axis(k));
             }
         }
+        let groups: Vec<usize> = nodes.iter().map(|n| n.len() - 1).collect();
         let mut differences = vec![];
         for (group, &size) in groups.iter().enumerate() {
             for from in 0..=size {
                 differences.extend((from + 1..=size).map(|to| Difference { group, from, to }));
             }
         }
-        let inverse_coupling = inverse_coupling(&axes, variables.len()).ok_or(Unsuitable::Coupling)?;
+        let form = |d: &Difference| -> Vec<i64> {
+            let of = &nodes[d.group];
+            of[d.to].iter().zip(&of[d.from]).map(|(x, y)| x - y).collect()
+        };
+        let forms: Vec<Vec<i64>> = differences.iter().map(form).collect();
+        let same = (0..forms.len()).map(|n| first_like(&forms, n)).collect();
         let turning = Periods::of(description);
         let mut chain = NormalChain {
             goes_round: (0..variables.len()).map(|j| turning.goes_round(j)).collect(),
-            inverse_coupling,
+            forms,
+            same,
+            drivers,
             variables,
             parameters,
             axes,
@@ -253,11 +284,13 @@ impl NormalChain {
             algebra,
         };
         for number in 0..chain.differences.len() {
-            let expr = chain.angle(chain.differences[number]);
-            chain.algebra.pair(number, expr);
+            if chain.same[number].0 == number {
+                let expr = chain.angle(chain.differences[number]);
+                chain.algebra.pair(number, expr);
+            }
         }
         for k in 0..chain.axes.len() {
-            if chain.axes[k].motion == Motion::Slide {
+            if chain.axes[k].motion == Motion::Slide && chain.drivers.drives(k) {
                 let e = chain.axes[k].value;
                 chain.algebra.atom(Kind::Slide(k), || e);
             }
@@ -267,7 +300,12 @@ impl NormalChain {
 
     /// True if a joint variable is an angle.
     pub fn is_angle(&self, variable: usize) -> bool {
-        self.inverse_coupling[variable].iter().any(|f| self.axes[f.0].motion != Motion::Slide)
+        self.drivers.inverse[variable].iter().any(|f| self.axes[f.0].motion != Motion::Slide)
+    }
+
+    /// Whether some axes follow others.
+    pub fn has_followers(&self) -> bool {
+        self.axes.len() > self.drivers.axes.len()
     }
 
     /// The axes that joint variables (from 0) determine.
@@ -281,18 +319,99 @@ impl NormalChain {
         self.differences.iter().position(|&x| x == d).expect("every difference has a number")
     }
 
+    /// The factors of a difference of the axes that drive; `from` may be the larger node.
+    pub fn form(&self, d: Difference) -> Vec<i64> {
+        if d.from == d.to {
+            return vec![0; self.drivers.axes.len()];
+        }
+        let form = &self.forms[self.number(d.forwards())];
+        if d.from < d.to { form.clone() } else { form.iter().map(|x| -x).collect() }
+    }
+
+    /// The first difference that is the same angle, or its negative.
+    pub fn first_of(&self, d: Difference) -> Difference {
+        self.differences[self.same[self.number(d)].0]
+    }
+
+    /// Whether an axis moves with an unknown, all else held: it is among its axes, or follows one of them.
+    pub fn moves_with(&self, axis: usize, x: Unknown) -> bool {
+        let own = &self.drivers.factors[axis];
+        match x {
+            Unknown::Slide(k) => {
+                own.iter().zip(&self.drivers.axes).any(|(factor, &d)| d == k && !factor.is_zero())
+            }
+            Unknown::Angle(d) => own.iter().zip(self.form(d)).any(|(factor, x)| x != 0 && !factor.is_zero()),
+        }
+    }
+
+    /// All differences that are the same angle, each from and to the nodes for which that is so, not for its negative.
+    pub fn all_of(&self, d: Difference) -> impl Iterator<Item = Difference> + '_ {
+        let (first, backwards) = self.same[self.number(d)];
+        (0..self.differences.len()).filter(move |&n| self.same[n].0 == first).map(move |n| {
+            let found = self.differences[n];
+            if self.same[n].1 == backwards { found } else { found.backwards() }
+        })
+    }
+
+    /// The axes whose angles add up to a difference, with signs: those of the shortest way along the chain.
+    pub fn axes_between(&self, d: Difference) -> Vec<(usize, bool)> {
+        let of: Vec<(usize, usize, usize, bool)> = (0..self.axes.len())
+            .filter_map(|k| match self.axes[k].motion {
+                Motion::Turn { group, from, to, reversed } if group == d.group => {
+                    Some((k, from, to, reversed))
+                }
+                _ => None,
+            })
+            .collect();
+        let way = |start: usize, end: usize| {
+            let all = (0..of.len()).flat_map(|i| (i..of.len()).map(move |j| (i, j)));
+            all.filter(|&(i, j)| of[i].1 == start && of[j].2 == end).min_by_key(|(i, j)| j - i)
+        };
+        let forwards = way(d.from, d.to).map(|way| (way, false));
+        let found = forwards.or_else(|| way(d.to, d.from).map(|way| (way, true)));
+        let signed = |((i, j), backwards): ((usize, usize), bool)| {
+            of[i..=j].iter().map(|&(k, _, _, reversed)| (k, reversed != backwards)).collect()
+        };
+        found.map_or(vec![], signed)
+    }
+
     /// A difference of potentials as a sum of the rows' angles.
     pub fn angle(&self, d: Difference) -> Expr {
         let mut sum = Expr::int(0);
-        for axis in &self.axes {
-            if let Motion::Turn { group, node, reversed } = axis.motion
-                && group == d.group
-                && (d.from + 1..=d.to).contains(&node)
-            {
-                sum = if reversed { sum - axis.value } else { sum + axis.value };
-            }
+        for (k, negative) in self.axes_between(d) {
+            let value = self.axes[k].value;
+            sum = if negative { sum - value } else { sum + value };
         }
         denavit_symbolic::Angle::of(sum).to_expr()
+    }
+
+    /// True if all that turns the hand turns it about one direction: the axes between come back to where they were.
+    pub fn turns_about_one_direction(&self) -> bool {
+        let end = |group: usize| {
+            let of = |a: &Axis| match a.motion {
+                Motion::Turn { group: g, to, .. } if g == group => Some(to),
+                _ => None,
+            };
+            self.axes.iter().rev().find_map(of)
+        };
+        // Of a group that turns, constants between its axes keep their direction; one that does not is a constant.
+        let (mut since, mut turning) = (identity(), None);
+        for element in &self.elements {
+            match element {
+                Element::Constant(constant) => since = self.algebra.product(&since, &constant.0),
+                Element::Axis(k) => {
+                    let Motion::Turn { group, .. } = self.axes[*k].motion else { continue };
+                    if turning == Some(group) || end(group) == Some(0) {
+                        continue;
+                    }
+                    if turning.is_some() && !(since[0][2].is_zero() && since[1][2].is_zero()) {
+                        return false;
+                    }
+                    (since, turning) = (identity(), Some(group));
+                }
+            }
+        }
+        turning.is_some()
     }
 
     /// Cosine and sine of φ_to − φ_from, whichever is larger.
@@ -300,10 +419,20 @@ impl NormalChain {
         if from == to {
             return (Poly::one(), Poly::zero());
         }
-        let number = self.number(Difference { group, from: from.min(to), to: from.max(to) });
-        let atom = |kind| Poly::atom(self.algebra.find(kind).expect("every difference has atoms"));
+        let (number, opposite) = self.same[self.number(Difference { group, from, to }.forwards())];
+        let atom = |kind| Poly::atom(self.algebra.find(kind).expect("every angle has atoms"));
         let (c, s) = (atom(Kind::Cos(number)), atom(Kind::Sin(number)));
-        if from < to { (c, s) } else { (c, s.scaled(&-Rational::ONE)) }
+        if (from < to) != opposite { (c, s) } else { (c, s.scaled(&-Rational::ONE)) }
+    }
+
+    /// The displacement of an axis by those of the axes that drive.
+    pub fn slide(&self, axis: usize) -> Poly {
+        let of = |(&k, x): (&usize, &Rational)| {
+            let atom = self.algebra.find(Kind::Slide(k))?;
+            (!x.is_zero()).then(|| Poly::atom(atom).scaled(x))
+        };
+        let all = self.drivers.axes.iter().zip(&self.drivers.factors[axis]);
+        all.filter_map(of).fold(Poly::zero(), |sum, x| sum.plus(&x))
     }
 
     /// The product of elements `from..to` for all `to`, as rotation and position, up to the first that is too long to
@@ -340,17 +469,17 @@ impl NormalChain {
                 }
                 Element::Axis(k) => match self.axes[*k].motion {
                     Motion::Slide => {
-                        let r = a.find(Kind::Slide(*k)).expect("every slide has an atom");
+                        let r = self.slide(*k);
                         let z = whole(&before, group, &since);
-                        let along: Column = std::array::from_fn(|i| a.times(&z[i][2], &Poly::atom(r)));
+                        let along: Column = std::array::from_fn(|i| a.times(&z[i][2], &r));
                         position = super::algebra::sum(&position, &along);
                     }
-                    Motion::Turn { group: g, node, reversed } => match &mut group {
-                        Some((current, _, _, end)) if *current == g => *end = node,
+                    Motion::Turn { group: g, from, to, reversed } => match &mut group {
+                        Some((current, _, _, end)) if *current == g => *end = to,
                         _ => {
                             before = whole(&before, group, &since);
                             since = identity();
-                            group = Some((g, node - 1, reversed, node));
+                            group = Some((g, from, reversed, to));
                         }
                     },
                 },
@@ -365,36 +494,11 @@ impl NormalChain {
     }
 }
 
-/// The inverse of the matrix that takes joint variables to axes, by rows without zeros.
-fn inverse_coupling(axes: &[Axis], n: usize) -> Option<Vec<Vec<(usize, Rational)>>> {
-    let mut matrix: Vec<Vec<Rational>> = vec![];
-    for (k, axis) in axes.iter().enumerate() {
-        let mut row = vec![Rational::ZERO; 2 * n];
-        for &(j, factor) in &axis.form.terms {
-            row[j] = factor.as_number()?;
-        }
-        row[n + k] = Rational::ONE;
-        matrix.push(row);
-    }
-    for j in 0..n {
-        let pivot = (j..n).find(|&i| !matrix[i][j].is_zero())?;
-        matrix.swap(j, pivot);
-        let inverse = matrix[j][j].recip()?;
-        matrix[j].iter_mut().for_each(|x| *x = &*x * &inverse);
-        for i in (0..n).filter(|&i| i != j) {
-            let factor = matrix[i][j].clone();
-            let pivot = matrix[j].clone();
-            for (x, y) in matrix[i].iter_mut().zip(&pivot) {
-                *x = &*x - &(&factor * y);
-            }
-        }
-    }
-    let row = |r: &Vec<Rational>| {
-        (0..n).filter(|&k| !r[n + k].is_zero()).map(|k| (k, r[n + k].clone())).collect::<Vec<_>>()
-    };
-    let found: Vec<Vec<(usize, Rational)>> = matrix.iter().map(row).collect();
-    let slides = |k: usize| axes[k].motion == Motion::Slide;
-    found.iter().all(|f| f.iter().all(|x| slides(x.0)) || f.iter().all(|x| !slides(x.0))).then_some(found)
+/// The first form that is the same or the negative of one, and whether it is that.
+fn first_like(forms: &[Vec<i64>], n: usize) -> (usize, bool) {
+    let is_negative = |m: usize| forms[m].iter().zip(&forms[n]).all(|(x, y)| *x == -y);
+    let found = (0..n).find(|&m| forms[m] == forms[n] || is_negative(m)).unwrap_or(n);
+    (found, forms[found] != forms[n])
 }
 
 fn about_z(c: &Poly, s: &Poly) -> Matrix {
@@ -402,125 +506,11 @@ fn about_z(c: &Poly, s: &Poly) -> Matrix {
     [[c.clone(), s.scaled(&-Rational::ONE), o.clone()], [s.clone(), c.clone(), o.clone()], [o.clone(), o, l]]
 }
 
-/// The moving axes with the constants before each, and what stands behind the last.
-fn screws(robot: &Robot<Expr>) -> Result<(Vec<Screw>, Transform<Expr>), Unsuitable> {
-    let turns_by = |l: &Link<Expr>, j: usize| l.theta.terms.iter().any(|t| t.0 == j);
-    if let Some(row) = robot.links.iter().position(|l| l.d.terms.iter().any(|t| turns_by(l, t.0))) {
-        return Err(Unsuitable::Helical(row + 1));
-    }
-    let MovingAxes { moving, mut constants } = MovingAxes::new(robot, Lengths::Behind);
-    // Quarter turns of an angle and offsets of a displacement are constants.
-    for (k, axis) in moving.iter().enumerate() {
-        if axis.kind == JointKind::Prismatic {
-            constants[k + 1] = axis.at_rest() * constants[k + 1];
-        } else {
-            let quarters = Rational::new(i64::from(axis.value.quarters), 2);
-            constants[k] = constants[k] * Transform::rotation_z(Expr::from(quarters) * Expr::pi());
-        }
-    }
-    let tail = constants.pop().unwrap_or_else(Transform::identity);
-    let screw = |(axis, before): (MovingAxis<Expr>, Transform<Expr>)| {
-        let mut form = Affine { quarters: 0, ..axis.value };
-        if axis.kind == JointKind::Prismatic {
-            form.offset = Expr::int(0);
-        }
-        Screw { before, form, kind: axis.kind, row: axis.row }
-    };
-    Ok((moving.into_iter().zip(constants).map(screw).collect(), tail))
-}
-
-/// Brings constant displacements along axes that stay parallel to one place: those of the first axes into the base,
-/// all others behind the last of them.
-fn gather(screws: &mut [Screw], tail: &mut Transform<Expr>, turning: &[bool]) {
-    let n = screws.len();
-    // The constant behind axis k.
-    let behind = |screws: &[Screw], tail: &Transform<Expr>, k: usize| {
-        if k + 1 < n { screws[k + 1].before } else { *tail }
-    };
-    let set = |screws: &mut [Screw], tail: &mut Transform<Expr>, k: usize, x: Transform<Expr>| {
-        if k + 1 < n { screws[k + 1].before = x } else { *tail = x }
-    };
-    let parallel = |x: &Transform<Expr>| {
-        let z = x.rotation.z();
-        z[0].is_zero() && z[1].is_zero()
-    };
-    // How far the first axes stay parallel.
-    let first = (1..n).find(|&k| !parallel(&screws[k].before)).unwrap_or(n);
-    for k in (0..first).rev() {
-        let x = behind(screws, tail, k);
-        let along = x.translation[2];
-        if along.is_zero() || oblique(&x) {
-            continue;
-        }
-        let [a, b, _] = x.translation.0;
-        let rest = Transform::from_rotation_translation(x.rotation, Vector([a, b, Expr::int(0)]));
-        set(screws, tail, k, rest);
-        let before = screws[k].before;
-        screws[k].before = (before * Transform::translation_z(along)).map(readable::settled);
-    }
-    for k in first.max(1)..n {
-        // Along the axis that follows the constant before axis k.
-        let x = screws[k].before;
-        let along = readable::settled(x.rotation.z().dot(x.translation));
-        if along.is_zero() || oblique(&x) || !turning[k] {
-            continue;
-        }
-        let z = x.rotation.z();
-        let rest = x.translation - z.scale(along);
-        screws[k].before = Transform::from_rotation_translation(x.rotation, rest).map(readable::settled);
-        let after = behind(screws, tail, k);
-        set(screws, tail, k, (Transform::translation_z(along) * after).map(readable::settled));
-    }
-}
-
-/// True if the axes before and behind a constant are neither parallel nor at a right angle.
-fn oblique(x: &Transform<Expr>) -> bool {
-    let z = x.rotation.z();
-    !(z[2].is_zero() || z[0].is_zero() && z[1].is_zero())
-}
-
 /// The value of an axis in the joint variables.
 fn value(form: &Affine<Expr>, variables: &[Symbol]) -> Expr {
     let terms = form.terms.iter().map(|&(j, k)| k * Expr::from(variables[j]));
     let sum = terms.reduce(|a, b| a + b).unwrap_or(Expr::int(0));
     if form.offset.is_zero() { sum } else { sum + form.offset }
-}
-
-/// The description with the values of its angles, and of what is zero, put in.
-pub fn settled(description: &Description) -> Description {
-    let mut d = description.clone();
-    let mut angles: Vec<Symbol> = vec![];
-    for row in &d.rows {
-        angles.extend(row.alpha.symbols());
-        angles.extend(row.gamma.symbols());
-        angles.extend(row.theta.symbols());
-    }
-    let rotations = [d.base, d.tool];
-    for x in &rotations {
-        x.rotation.rows().iter().flatten().for_each(|e| angles.extend(e.symbols()));
-    }
-    let known: Vec<(Symbol, Expr)> = d
-        .parameters
-        .iter()
-        .filter_map(|p| Some((p.symbol, p.value?)))
-        .filter(|(s, v)| angles.contains(s) || readable::settled(*v).is_zero())
-        .collect();
-    if known.is_empty() {
-        return d;
-    }
-    let put = |e: Expr| e.substitute(|s| known.iter().find(|k| k.0 == s).map(|k| k.1));
-    for row in &mut d.rows {
-        row.theta = put(row.theta);
-        row.d = put(row.d);
-        row.a = put(row.a);
-        row.alpha = put(row.alpha);
-        row.gamma = put(row.gamma);
-        row.b = put(row.b);
-    }
-    d.base = d.base.map(put);
-    d.tool = d.tool.map(put);
-    d.parameters.retain(|p| !known.iter().any(|k| k.0 == p.symbol));
-    d
 }
 
 /// The parameters that occur in the chain, in the order of the description.

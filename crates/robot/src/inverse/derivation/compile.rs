@@ -2,77 +2,23 @@
 
 use super::algebra::Kind;
 use super::chain::{Difference, Element, Motion, NormalChain};
+use super::drivers::Lattice;
 use super::equations::{Goal, Split};
+use super::inputs::{Inputs, moved_pose};
 use super::known::Unknown;
-use super::naming::{names, unique};
+use super::naming::names;
 use super::plan::{Determinant, Form, Norm, Row, Step};
 use super::rounding;
 use super::sign::{Sign, determinant_sign};
 use super::terms::{outermost, split, square_root};
-use crate::geometry::{Rotation, Transform, Vector};
+use crate::geometry::Transform;
 use crate::inverse::branch::Label;
 use denavit_program::solver::{Draft, Output, Root, Solver, SolverBuilder};
 use denavit_program::{Op, Stage, Value};
 use denavit_symbolic::poly::{Atom, Poly};
-use denavit_symbolic::{Expr, Rational, Symbol};
+use denavit_symbolic::{Rational, Symbol};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
-
-/// What goes into a solver, in order: the entries of the pose that the goal gives, then the given joint variables.
-#[derive(Clone, Debug)]
-pub struct Inputs {
-    /// The entries of the pose, row-major in a 3×4 matrix; nothing where the goal does not give one.
-    pub pose: [Option<Symbol>; 12],
-    /// The joint variables that are given, with their numbers.
-    pub given: Vec<(usize, Symbol)>,
-}
-
-impl Inputs {
-    /// The inputs of a chain's solver.
-    pub fn new(chain: &NormalChain, goal: Goal, given: &[usize]) -> Self {
-        let trivial = chain.base == Transform::identity() && chain.tool == Transform::identity();
-        let mut taken: FxHashSet<String> =
-            chain.variables.iter().chain(&chain.parameters).map(|s| s.name().to_string()).collect();
-        let pose = std::array::from_fn(|k| {
-            let (row, column) = (k / 4, k % 4);
-            let wanted = match goal {
-                Goal::Pose => true,
-                Goal::Position => column == 3,
-                Goal::PositionAndAxis => column >= 2,
-            };
-            let name = if trivial {
-                chain.pose[k].name().to_string()
-            } else {
-                unique(format!("t{}{}", row + 1, column + 1), &mut taken)
-            };
-            wanted.then(|| Symbol::new(&name))
-        });
-        Inputs { pose, given: given.iter().map(|&k| (k, chain.variables[k])).collect() }
-    }
-
-    /// All symbols, in order.
-    pub fn symbols(&self) -> Vec<Symbol> {
-        self.pose.iter().flatten().copied().chain(self.given.iter().map(|g| g.1)).collect()
-    }
-}
-
-/// The entries of U = base⁻¹ · T · tool⁻¹ in those of T; nothing for an entry that the goal does not give.
-pub fn moved_pose(chain: &NormalChain, inputs: &Inputs) -> [Option<Expr>; 12] {
-    let entry = |row: usize, column: usize| inputs.pose[row * 4 + column].map(Expr::from);
-    let zero = Expr::int(0);
-    let r = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j).unwrap_or(zero)));
-    let p = std::array::from_fn(|i| entry(i, 3).unwrap_or(zero));
-    let pose = Transform::from_rotation_translation(Rotation::from_rows(r), Vector(p));
-    let base = chain.base.inverse();
-    let tool = chain.tool.inverse();
-    let moved = if inputs.pose.iter().all(Option::is_some) { base * pose * tool } else { base * pose };
-    let rows = moved.rotation.rows();
-    std::array::from_fn(|k| {
-        let (i, j) = (k / 4, k % 4);
-        inputs.pose[k]?;
-        Some(if j == 3 { moved.translation.0[i] } else { rows[i][j] })
-    })
-}
 
 /// A compiled derivation.
 #[derive(Clone, Debug)]
@@ -135,6 +81,8 @@ fn compile_with(
         atoms: FxHashMap::default(),
         ranks: vec![0; chain.algebra.atoms()],
         edges: vec![vec![]; chain.groups.len()],
+        learnt: Lattice::default(),
+        angles: vec![],
         pairs: FxHashMap::default(),
         polys: FxHashMap::default(),
     };
@@ -174,6 +122,9 @@ struct Builder<'a> {
     ranks: Vec<usize>,
     /// For each group the angles that are known, from node to node.
     edges: Vec<Vec<(usize, usize, Value, Value)>>,
+    /// Those that were found, with their cosines and sines, if axes follow others.
+    learnt: Lattice,
+    angles: Vec<(Value, Value)>,
     pairs: FxHashMap<(usize, usize, usize), (Value, Value)>,
     polys: FxHashMap<Poly, Value>,
 }
@@ -184,16 +135,42 @@ impl Builder<'_> {
         let value = self.chain.axes[k].value;
         match self.chain.axes[k].motion {
             Motion::Slide => {
-                let atom = self.chain.algebra.find(Kind::Slide(k)).expect("every slide has an atom");
+                // What follows another is known with that.
+                let Some(atom) = self.chain.algebra.find(Kind::Slide(k)) else { return };
                 let v = self.solver.trace(value);
                 self.atoms.insert(atom, v);
                 self.ranks[usize::from(atom)] = 2;
             }
-            Motion::Turn { group, node, reversed } => {
+            Motion::Turn { group, from, to, reversed } => {
                 let (s, c) = value.sin_cos();
                 let (c, s) = (self.solver.trace(c), self.solver.trace(s));
-                self.edges[group].push((node - 1, node, c, if reversed { -s } else { s }));
+                self.learn(Difference { group, from, to }, (c, if reversed { -s } else { s }));
                 self.rank(2);
+            }
+        }
+    }
+
+    /// Cosine and sine of an angle are known from here on, and those of what follows it.
+    fn learn(&mut self, d: Difference, pair: (Value, Value)) {
+        self.edges[d.group].push((d.from, d.to, pair.0, pair.1));
+        if !self.chain.has_followers() {
+            return;
+        }
+        self.learnt.add(&self.chain.form(d));
+        self.angles.push(pair);
+        for (&d, form) in self.chain.differences.iter().zip(&self.chain.forms) {
+            if self.path(d.group, d.from, d.to).is_none()
+                && let Some(made) = self.learnt.made(form)
+            {
+                let mut sum: Option<(Value, Value)> = None;
+                for (factor, &(c, s)) in made.iter().zip(&self.angles.clone()) {
+                    let s = if *factor < 0 { -s } else { s };
+                    for _ in 0..factor.unsigned_abs() {
+                        sum = Some(sum.map_or((c, s), |before| self.added(before, (c, s))));
+                    }
+                }
+                let (c, s) = sum.unwrap_or_else(|| (self.number(1), self.number(0)));
+                self.edges[d.group].push((d.from, d.to, c, s));
             }
         }
     }
@@ -204,7 +181,7 @@ impl Builder<'_> {
             let d = self.chain.differences[n];
             if self.path(d.group, d.from, d.to).is_some() {
                 for kind in [Kind::Cos(n), Kind::Sin(n)] {
-                    let a = self.chain.algebra.find(kind).expect("every difference has atoms");
+                    let Some(a) = self.chain.algebra.find(kind) else { continue };
                     let r = &mut self.ranks[usize::from(a)];
                     if *r == 0 {
                         *r = rank;
@@ -391,8 +368,8 @@ impl Builder<'_> {
                 self.atoms.insert(atom, inputs[0]);
                 self.ranks[usize::from(atom)] = 3 + i;
             }
-            Unknown::Angle(Difference { group, from, to }) => {
-                self.edges[group].push((from, to, inputs[0], inputs[1]));
+            Unknown::Angle(d) => {
+                self.learn(d, (inputs[0], inputs[1]));
                 self.rank(3 + i);
             }
         }
@@ -539,7 +516,7 @@ impl Builder<'_> {
             let value = self.solver.graph.input(self.chain.variables[j]);
             return Output { name, value, is_angle: self.chain.goes_round[j] };
         }
-        let factors = self.chain.inverse_coupling[j].clone();
+        let factors = self.chain.drivers.inverse[j].clone();
         if !self.chain.is_angle(j) {
             let mut sum = self.number(0);
             for (k, m) in factors {
@@ -559,8 +536,8 @@ impl Builder<'_> {
         let mut angle: Option<(Value, Value)> = None;
         let mut plain = self.number(0);
         for (k, m) in factors {
-            let Motion::Turn { group, node, reversed } = self.chain.axes[k].motion else { continue };
-            let (c, s) = self.pair(group, node - 1, node);
+            let Motion::Turn { group, from, to, reversed } = self.chain.axes[k].motion else { continue };
+            let (c, s) = self.pair(group, from, to);
             let s = if reversed { -s } else { s };
             let offset = self.chain.axes[k].form.offset;
             let (os, oc) = offset.sin_cos();

@@ -53,9 +53,9 @@ pub fn task(chain: &NormalChain, rank: usize, of_position: usize, with_axis: usi
     match rank {
         6 => Task::Pose,
         5 if with_axis == 5 => Task::PositionAndAxis,
-        4 if chain.groups.len() == 1 && of_position == 3 => Task::PositionAndTurn,
+        4 if of_position == 3 && chain.turns_about_one_direction() => Task::PositionAndTurn,
         3 if of_position == 3 => Task::Position,
-        3 if of_position == 2 && chain.groups.len() == 1 => Task::Planar,
+        3 if of_position == 2 && chain.turns_about_one_direction() => Task::Planar,
         3 if of_position < 3 && chain.groups.len() == 3 && turning => Task::Orientation,
         n => Task::Other(n),
     }
@@ -88,7 +88,7 @@ pub fn conditions(
             }
         }
         if let Some(step) = steps.get(behind) {
-            known.learn(step.unknown);
+            known.learn(chain, step.unknown);
         }
     }
     candidates

@@ -1,10 +1,12 @@
 //! What is known at a point of the derivation, and equations seen from there.
 //!
 //! The nodes of a group of parallel axes are connected where the angle between them is known: learning θ234 and θ2 makes
-//! θ34 known for free. Two angles that differ by a known one are one unknown.
+//! θ34 known for free. Two angles that differ by a known one are one unknown. Where axes follow others, what is a sum of
+//! whole multiples of known angles is known as well.
 
 use super::algebra::{Algebra, Kind};
 use super::chain::{Difference, Element, Motion, NormalChain};
+use super::drivers::Lattice;
 use crate::geometry::{Rotation, Transform, Vector};
 use crate::random::Random;
 use denavit_symbolic::poly::{Atom, Monomial, Poly};
@@ -26,6 +28,8 @@ pub struct Known {
     /// For each node of each group, the smallest node that it is connected to.
     component: Vec<Vec<usize>>,
     slides: Vec<bool>,
+    /// The angles that were learnt, if axes follow others.
+    learnt: Option<Lattice>,
 }
 
 impl Known {
@@ -33,25 +37,40 @@ impl Known {
     pub fn new(chain: &NormalChain, given: &[usize]) -> Self {
         let mut known = Known {
             component: chain.groups.iter().map(|&n| (0..=n).collect()).collect(),
-            slides: chain.axes.iter().map(|a| a.motion != Motion::Slide).collect(),
+            slides: (0..chain.axes.len())
+                .map(|k| chain.axes[k].motion != Motion::Slide || !chain.drivers.drives(k))
+                .collect(),
+            learnt: chain.has_followers().then(Lattice::default),
         };
         for &k in given {
-            known.learn(axis_unknown(chain, k));
+            known.learn(chain, axis_unknown(chain, k));
         }
         known
     }
 
     /// The unknown is known from here on.
-    pub fn learn(&mut self, x: Unknown) {
+    pub fn learn(&mut self, chain: &NormalChain, x: Unknown) {
         match x {
             Unknown::Slide(k) => self.slides[k] = true,
             Unknown::Angle(d) => {
-                let nodes = &mut self.component[d.group];
-                let (a, b) = (nodes[d.from], nodes[d.to]);
-                let (low, high) = (a.min(b), a.max(b));
-                nodes.iter_mut().filter(|n| **n == high).for_each(|n| *n = low);
+                self.connect(d);
+                let Some(mut learnt) = self.learnt.take() else { return };
+                learnt.add(&chain.form(d));
+                for (&d, form) in chain.differences.iter().zip(&chain.forms) {
+                    if !self.knows(Unknown::Angle(d)) && learnt.made(form).is_some() {
+                        self.connect(d);
+                    }
+                }
+                self.learnt = Some(learnt);
             }
         }
+    }
+
+    fn connect(&mut self, d: Difference) {
+        let nodes = &mut self.component[d.group];
+        let (a, b) = (nodes[d.from], nodes[d.to]);
+        let (low, high) = (a.min(b), a.max(b));
+        nodes.iter_mut().filter(|n| **n == high).for_each(|n| *n = low);
     }
 
     /// True if the value is known.
@@ -72,11 +91,12 @@ impl Known {
         self.slides.iter().all(|&x| x) && self.component.iter().all(|c| c.iter().all(|&n| n == 0))
     }
 
-    /// The angle by which an unknown difference is called: between the smallest nodes of its components.
-    pub fn representative(&self, d: Difference) -> Difference {
+    /// The angle by which an unknown difference is called: between the smallest nodes of its components, or the first that
+    /// is the same.
+    pub fn representative(&self, chain: &NormalChain, d: Difference) -> Difference {
         let nodes = &self.component[d.group];
         let (a, b) = (nodes[d.from], nodes[d.to]);
-        Difference { group: d.group, from: a.min(b), to: a.max(b) }
+        chain.first_of(Difference { group: d.group, from: a.min(b), to: a.max(b) })
     }
 
     /// The unknown angles (by representative) and displacements among some atoms, sorted.
@@ -90,7 +110,7 @@ impl Known {
             };
             if !self.knows(x) {
                 found.push(match x {
-                    Unknown::Angle(d) => Unknown::Angle(self.representative(d)),
+                    Unknown::Angle(d) => Unknown::Angle(self.representative(chain, d)),
                     slide => slide,
                 });
             }
@@ -101,21 +121,32 @@ impl Known {
     }
 
     /// How many of some unknowns are independent: three angles between three nodes are two.
-    pub fn rank(&self, unknowns: &[Unknown]) -> usize {
+    pub fn rank(&self, chain: &NormalChain, unknowns: &[Unknown]) -> usize {
         let mut merged = self.clone();
         let mut rank = 0;
         for &x in unknowns {
             if !merged.knows(x) {
-                merged.learn(x);
+                merged.learn(chain, x);
                 rank += 1;
             }
         }
         rank
     }
 
-    /// The angle between the outer ends of two angles of one group that share a node.
-    pub fn third(&self, pair: &[Unknown]) -> Option<Unknown> {
+    /// The angle between the outer ends of two angles of one group that share a node; where axes follow others, any that is
+    /// the sum or the difference of both.
+    pub fn third(&self, chain: &NormalChain, pair: &[Unknown]) -> Option<Unknown> {
         let [Unknown::Angle(a), Unknown::Angle(b)] = pair else { return None };
+        if chain.has_followers() {
+            let (a, b) = (chain.form(*a), chain.form(*b));
+            let is_made = |form: &Vec<i64>| {
+                [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+                    .into_iter()
+                    .any(|(x, y)| form.iter().zip(&a).zip(&b).all(|((f, a), b)| *f == x * a + y * b))
+            };
+            let number = chain.forms.iter().position(is_made)?;
+            return Some(Unknown::Angle(self.representative(chain, chain.differences[number])));
+        }
         if a.group != b.group {
             return None;
         }
@@ -142,7 +173,7 @@ impl Known {
                 if !self.knows(x)
                     && !basis.contains(&x)
                     && found.iter().all(|w| w.0 != n)
-                    && let Some(way) = self.way(d, basis)
+                    && let Some(way) = self.way(chain, d, basis)
                 {
                     found.push((n, way));
                 }
@@ -152,17 +183,16 @@ impl Known {
     }
 
     /// A difference over at most two angles of a basis.
-    fn way(&self, d: Difference, basis: &[Unknown]) -> Option<Vec<(usize, usize)>> {
+    fn way(&self, chain: &NormalChain, d: Difference, basis: &[Unknown]) -> Option<Vec<(usize, usize)>> {
         let nodes = &self.component[d.group];
         let (start, goal) = (nodes[d.from], nodes[d.to]);
         // A path over at most two edges of the basis.
         let edges: Vec<(usize, usize)> = basis
             .iter()
-            .filter_map(|x| match x {
-                Unknown::Angle(e) if e.group == d.group => Some((e.from, e.to)),
-                _ => None,
-            })
-            .flat_map(|(p, q)| [(p, q), (q, p)])
+            .filter_map(|x| if let Unknown::Angle(e) = x { Some(chain.all_of(*e)) } else { None })
+            .flatten()
+            .filter(|e| e.group == d.group)
+            .flat_map(|e| [(e.from, e.to), (e.to, e.from)])
             .collect();
         let ends = |e: (usize, usize)| (nodes[e.0], nodes[e.1]);
         let mut path: Option<Vec<(usize, usize)>> =
@@ -228,7 +258,9 @@ fn expanded(chain: &NormalChain, d: Difference, way: &[(usize, usize)]) -> (Poly
 pub fn axis_unknown(chain: &NormalChain, k: usize) -> Unknown {
     match chain.axes[k].motion {
         Motion::Slide => Unknown::Slide(k),
-        Motion::Turn { group, node, .. } => Unknown::Angle(Difference { group, from: node - 1, to: node }),
+        Motion::Turn { group, from, to, .. } => {
+            Unknown::Angle(chain.first_of(Difference { group, from, to }.forwards()))
+        }
     }
 }
 
@@ -281,7 +313,7 @@ impl Samples {
             if samples.length == 0.0 {
                 samples.length = length(chain, &atoms);
             }
-            let axes: Vec<f64> = chain
+            let mut axes: Vec<f64> = chain
                 .axes
                 .iter()
                 .map(|axis| match axis.motion {
@@ -289,6 +321,7 @@ impl Samples {
                     Motion::Slide => samples.length * (random.unit() - 0.3),
                 })
                 .collect();
+            chain.drivers.follow(&mut axes);
             set_axes(chain, &axes, &mut atoms);
             samples.atoms.push(atoms);
             samples.axes.push(axes);
@@ -296,10 +329,11 @@ impl Samples {
         samples
     }
 
-    /// The tool's pose at the first configuration with one axis moved, row-major 3×4.
+    /// The tool's pose at the first configuration with one axis that drives moved, row-major 3×4.
     pub fn moved(&self, chain: &NormalChain, axis: usize, by: f64) -> Vec<f64> {
         let (mut axes, mut atoms) = (self.axes[0].clone(), self.atoms[0].clone());
         axes[axis] += by;
+        chain.drivers.follow(&mut axes);
         set_axes(chain, &axes, &mut atoms);
         let rows = std::array::from_fn(|i| std::array::from_fn(|j| atoms[i * 4 + j]));
         let p = Vector(std::array::from_fn(|i| atoms[i * 4 + 3]));
@@ -344,11 +378,13 @@ fn length(chain: &NormalChain, atoms: &[f64]) -> f64 {
 
 /// Puts in the values of the axes, and of what follows from them.
 fn set_axes(chain: &NormalChain, axes: &[f64], atoms: &mut [f64]) {
-    let mut potentials: Vec<Vec<f64>> = chain.groups.iter().map(|_| vec![0.0]).collect();
+    let mut potentials: Vec<Vec<f64>> = chain.groups.iter().map(|&n| vec![0.0; n + 1]).collect();
     for (axis, &x) in chain.axes.iter().zip(axes) {
-        if let Motion::Turn { group, reversed, .. } = axis.motion {
-            let last = potentials[group].last().copied().unwrap_or(0.0);
-            potentials[group].push(if reversed { last - x } else { last + x });
+        if let Motion::Turn { group, from, to, reversed } = axis.motion
+            && to > from
+        {
+            potentials[group][to] =
+                if reversed { potentials[group][from] - x } else { potentials[group][from] + x };
         }
     }
     for (i, atom) in atoms.iter_mut().enumerate() {

@@ -1,13 +1,15 @@
 //! The inverse model of a robot: the derivation, what it could not find and why, its solver.
 
 use super::candidates::Problem;
-use super::chain::{self, End, Motion, NormalChain, Unsuitable};
+use super::chain::{End, Motion, NormalChain, Unsuitable};
 use super::compile::{self, Compiled};
 use super::conditions::{self, Condition, Task};
+use super::drivers::Lattice;
 use super::equations::{Goal, Length, Split, equations};
 use super::known::{Known, Samples, Unknown, axis_unknown};
 use super::plan::{Form, Step};
 use super::screen::Screen;
+use super::screws;
 use super::search::{self, Outcome};
 use crate::description::Description;
 use crate::inverse::branch::{Label, Part};
@@ -222,7 +224,7 @@ impl InverseModel {
         options: &InverseOptions,
         extent: Extent,
     ) -> Result<Self, Refusal> {
-        let settled = chain::settled(description);
+        let settled = screws::settled(description);
         let end = if options.goal == Goal::Pose { End::Pose } else { End::Point };
         let chain = NormalChain::new(&settled, end).map_err(Refusal::Unsuitable)?;
         let n = chain.variables.len();
@@ -358,14 +360,22 @@ fn is_whole(chain: &NormalChain, splits: &[Split], goal: Goal) -> bool {
 
 /// Whether joint variables determine as many axes: of coupled joints, some tell how axes move together, which no step asks.
 fn are_axes(chain: &NormalChain, given: &[usize]) -> bool {
-    chain.axes_of(given).len() == given.len()
+    let mut turning = Lattice::default();
+    let mut sliding = 0;
+    for k in chain.axes_of(given) {
+        match axis_unknown(chain, k) {
+            Unknown::Angle(d) => turning.add(&chain.form(d)),
+            Unknown::Slide(k) => sliding += usize::from(chain.drivers.drives(k)),
+        }
+    }
+    turning.rank() + sliding == given.len()
 }
 
 /// The joint variables that are still open.
 fn missing(chain: &NormalChain, outcome: &Outcome, given: &[usize]) -> Vec<usize> {
     let open = |k: usize| outcome.missing.contains(&axis_unknown(chain, k));
     (0..chain.variables.len())
-        .filter(|j| !given.contains(j) && chain.inverse_coupling[*j].iter().any(|f| open(f.0)))
+        .filter(|j| !given.contains(j) && chain.drivers.inverse[*j].iter().any(|f| open(f.0)))
         .collect()
 }
 
@@ -453,8 +463,8 @@ fn rank(chain: &NormalChain, samples: &Samples, goal: Goal) -> usize {
             Goal::PositionAndAxis => k % 4 >= 2,
         })
         .collect();
-    let mut columns: Vec<Vec<f64>> = (0..chain.axes.len())
-        .map(|k| {
+    let mut columns: Vec<Vec<f64>> = (chain.drivers.axes.iter())
+        .map(|&k| {
             let unit = if chain.axes[k].motion == Motion::Slide { samples.length() } else { 1.0 };
             let [plus, minus] = [STEP, -STEP].map(|h| samples.moved(chain, k, h * unit));
             let size = |r: usize| if r % 4 == 3 { samples.length() } else { 1.0 };
@@ -483,13 +493,16 @@ fn rank(chain: &NormalChain, samples: &Samples, goal: Goal) -> usize {
 /// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the
 /// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first.
 fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
-    let n = chain.axes.len();
-    let turns: Vec<usize> = (0..n).filter(|&k| chain.axes[k].motion != Motion::Slide).collect();
-    let ends_turning = n >= 5 && chain.axes[n - 3..].iter().all(|a| a.motion != Motion::Slide);
+    // Axes that follow others are nobody's shoulder; the others are counted by themselves.
+    let axes = &chain.drivers.axes;
+    let n = axes.len();
+    let slides = |k: usize| chain.axes[axes[k]].motion == Motion::Slide;
+    let turns: Vec<usize> = (0..n).filter(|&k| !slides(k)).collect();
+    let ends_turning = n >= 5 && (n - 3..n).all(|k| !slides(k));
     let wrist = if ends_turning { n - if n == 5 { 2 } else { 3 } } else { n };
     // Three axes that meet, and nothing else.
     let is_wrist_alone = n == 3 && turns.len() == 3 && steps.iter().all(|s| s.degree == 0);
-    let slides_next = |k: usize| chain.axes.get(k + 1).is_some_and(|a| a.motion == Motion::Slide);
+    let slides_next = |k: usize| k + 1 < n && slides(k + 1);
     let mut used: Vec<Part> = vec![];
     steps
         .iter()
@@ -497,14 +510,13 @@ fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
             if step.cost.roots < 2 {
                 return None;
             }
-            let first = match step.unknown {
-                Unknown::Slide(k) => k,
-                Unknown::Angle(d) => (0..n).find(|&k| matches!(chain.axes[k].motion, Motion::Turn { group, node, .. } if group == d.group && node > d.from)).unwrap_or(0),
+            let of: Vec<usize> = match step.unknown {
+                Unknown::Slide(k) => vec![k],
+                Unknown::Angle(d) => chain.axes_between(d).iter().map(|x| x.0).collect(),
             };
-            let last = match step.unknown {
-                Unknown::Slide(k) => k,
-                Unknown::Angle(d) => (0..n).rev().find(|&k| matches!(chain.axes[k].motion, Motion::Turn { group, node, .. } if group == d.group && node <= d.to)).unwrap_or(0),
-            };
+            let mut own = (0..n).filter(|&k| of.contains(&axes[k]));
+            let first = own.next().unwrap_or(0);
+            let last = own.next_back().unwrap_or(first);
             let spans_wrist = last >= wrist && (first >= wrist || last - first >= 2);
             let part = if matches!(step.unknown, Unknown::Slide(_)) {
                 Part::Reach
@@ -537,22 +549,14 @@ impl NormalChain {
     /// An unknown's factors of the joint variables.
     pub(crate) fn unknown_terms(&self, x: Unknown) -> Vec<(usize, f64)> {
         let mut sum = vec![0.0; self.variables.len()];
-        for (k, axis) in self.axes.iter().enumerate() {
-            let sign = match (x, axis.motion) {
-                (Unknown::Slide(j), _) if j == k => 1.0,
-                (Unknown::Angle(d), Motion::Turn { group, node, reversed })
-                    if group == d.group && (d.from + 1..=d.to).contains(&node) =>
-                {
-                    if reversed {
-                        -1.0
-                    } else {
-                        1.0
-                    }
-                }
-                _ => continue,
-            };
-            for &(j, factor) in &axis.form.terms {
-                sum[j] += sign * factor.eval(|_| None).unwrap_or(0.0);
+        let axes = match x {
+            Unknown::Slide(k) => vec![(k, false)],
+            Unknown::Angle(d) => self.axes_between(d),
+        };
+        for (k, negative) in axes {
+            for &(j, factor) in &self.axes[k].form.terms {
+                let factor = factor.eval(|_| None).unwrap_or(0.0);
+                sum[j] += if negative { -factor } else { factor };
             }
         }
         sum.into_iter().enumerate().filter(|t| t.1 != 0.0).collect()

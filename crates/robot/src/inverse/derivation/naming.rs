@@ -1,7 +1,7 @@
 //! What the results of the steps are called.
 
-use super::chain::{Motion, NormalChain};
-use super::compile::Inputs;
+use super::chain::NormalChain;
+use super::inputs::Inputs;
 use super::known::Unknown;
 use super::plan::Step;
 use denavit_symbolic::Symbol;
@@ -47,15 +47,8 @@ pub fn index(chain: &NormalChain, x: Unknown) -> String {
     match x {
         Unknown::Slide(k) => (k + 1).to_string(),
         Unknown::Angle(d) => {
-            let numbers: Vec<String> = (0..chain.axes.len())
-                .filter(|&k| match chain.axes[k].motion {
-                    Motion::Turn { group, node, .. } => {
-                        group == d.group && (d.from + 1..=d.to).contains(&node)
-                    }
-                    Motion::Slide => false,
-                })
-                .map(|k| (k + 1).to_string())
-                .collect();
+            let numbers: Vec<String> =
+                chain.axes_between(d).iter().map(|(k, _)| (k + 1).to_string()).collect();
             numbers.join(if chain.axes.len() > 9 { "_" } else { "" })
         }
     }

@@ -1,6 +1,6 @@
 //! Rotations that are rounded: the nearest one stands for them.
 
-use super::compile::Inputs;
+use super::inputs::Inputs;
 use denavit_program::Value;
 use denavit_program::solver::SolverBuilder;
 use denavit_symbolic::Rational;

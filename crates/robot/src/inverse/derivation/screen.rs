@@ -30,6 +30,8 @@ type Forms = Vec<Vec<f64>>;
 #[derive(Debug)]
 pub struct Screen {
     axes: usize,
+    /// For each axis the form that it is: of one that follows others, in those.
+    forms: Forms,
     equations: Vec<Forms>,
     /// A point and the direction of each axis at some configuration; no point of one that slides.
     lines: Vec<(Option<[f64; 3]>, [f64; 3])>,
@@ -101,7 +103,9 @@ impl Screen {
             for right in 0..=n {
                 for left in 0..=right {
                     let three = [&parts[0][left], &parts[left][right - left], &parts[right][n - right]];
-                    of_all.push(derivatives(chain.axes.len(), &pose, three));
+                    let mut rows = derivatives(chain.axes.len(), &pose, three);
+                    rows.iter_mut().for_each(|row| followed(chain, row));
+                    of_all.push(rows);
                 }
             }
             gradients.push(of_all);
@@ -118,7 +122,8 @@ impl Screen {
                 }
             }
         }
-        Screen { axes: chain.axes.len(), equations, lines, length, usual }
+        let forms = (0..chain.axes.len()).map(|k| form(chain, k)).collect();
+        Screen { axes: chain.axes.len(), forms, equations, lines, length, usual }
     }
 
     /// False if six turns are left of which no three neighbours meet in a point or are parallel.
@@ -141,7 +146,8 @@ impl Screen {
             let ((a, first), (b, second)) = (nearest((p, u)), nearest((r, w)));
             (a - b).abs().max(first).max(second) <= SMALL * self.length
         };
-        left.len() != 6 || turns.len() < 6 || turns.windows(3).any(special)
+        let follows = (0..self.axes).any(|k| self.forms[k][k] == 0.0);
+        follows || left.len() != 6 || turns.len() < 6 || turns.windows(3).any(special)
     }
 
     /// False if the search cannot find everything from the values of some axes.
@@ -149,10 +155,10 @@ impl Screen {
         if self.usual && !self.is_usual(given) {
             return false;
         }
-        let unit = |k: usize| (0..self.axes).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
-        let mut known: Forms = given.iter().map(|&k| unit(k)).collect();
+        let drive: usize = (0..self.axes).filter(|&k| self.forms[k][k] != 0.0).count();
+        let mut known: Forms = spanned(given.iter().map(|&k| self.forms[k].clone()).collect(), 0.0);
         loop {
-            if known.len() >= self.axes {
+            if known.len() >= drive {
                 return true;
             }
             let before = known.len();
@@ -178,6 +184,23 @@ impl Screen {
                 return false;
             }
         }
+    }
+}
+
+/// An axis as a form in those that drive.
+fn form(chain: &NormalChain, k: usize) -> Vec<f64> {
+    let mut form = vec![0.0; chain.axes.len()];
+    for (&d, x) in chain.drivers.axes.iter().zip(&chain.drivers.factors[k]) {
+        form[d] = x.to_f64();
+    }
+    form
+}
+
+/// Derivatives by all axes become those by the axes that drive.
+fn followed(chain: &NormalChain, row: &mut [f64]) {
+    for k in (0..row.len()).filter(|&k| !chain.drivers.drives(k)) {
+        let by = std::mem::take(&mut row[k]);
+        row.iter_mut().zip(form(chain, k)).for_each(|(x, factor)| *x += factor * by);
     }
 }
 

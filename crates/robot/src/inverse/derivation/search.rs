@@ -39,14 +39,14 @@ pub fn search(problem: &Problem, given: &[usize]) -> Outcome {
 fn search_on(problem: &Problem, given: &[usize], mut steps: Vec<Step>) -> Outcome {
     let chain = problem.chain;
     let mut known = Known::new(chain, given);
-    steps.iter().for_each(|s| known.learn(s.unknown));
+    steps.iter().for_each(|s| known.learn(chain, s.unknown));
     let mut leaves: usize = steps.iter().map(|s| usize::from(s.cost.roots)).product();
     while !known.everything() && !chain.algebra.is_spent() {
         let mut found = problem.candidates(&known);
         found.retain(|s| leaves * usize::from(s.cost.roots) <= MAX_LEAVES);
         let Some(best) = found.into_iter().min_by_key(|s| (s.cost, order(s))) else { break };
         leaves *= usize::from(best.cost.roots);
-        known.learn(best.unknown);
+        known.learn(chain, best.unknown);
         steps.push(best);
     }
     Outcome { steps, missing: known.open(chain) }
@@ -76,7 +76,7 @@ pub fn variants(problem: &Problem, given: &[usize], steps: &[Step]) -> Vec<(usiz
                 }
             }
         }
-        known.learn(step.unknown);
+        known.learn(problem.chain, step.unknown);
     }
     found
 }

@@ -1,8 +1,9 @@
 //! How what the steps find moves with the pose: to first order, at the first sample.
 
 use super::algebra::{Algebra, Kind};
-use super::chain::{Difference, NormalChain};
-use super::known::{Known, Samples, Unknown};
+use super::chain::NormalChain;
+use super::drivers::Lattice;
+use super::known::{Samples, Unknown, axis_unknown};
 use super::plan::{Form, Norm, Step};
 use denavit_symbolic::poly::{Atom, Poly};
 
@@ -10,22 +11,28 @@ use denavit_symbolic::poly::{Atom, Poly};
 pub struct Tangent<'a> {
     chain: &'a NormalChain,
     samples: &'a Samples,
-    known: Known,
     pose: [f64; 12],
-    /// Of the nodes of each group; the difference of two that are connected is that of the angle between them.
-    angles: Vec<Vec<f64>>,
+    /// The angles that are known, and how fast each changes.
+    learnt: Lattice,
+    rates: Vec<f64>,
     slides: Vec<f64>,
 }
 
 impl<'a> Tangent<'a> {
     /// Before the first step.
     pub fn new(chain: &'a NormalChain, samples: &'a Samples, given: &[usize], pose: [f64; 12]) -> Self {
+        let mut learnt = Lattice::default();
+        let angles = given.iter().filter_map(|&k| match axis_unknown(chain, k) {
+            Unknown::Angle(d) => Some(chain.form(d)),
+            Unknown::Slide(_) => None,
+        });
+        let turning = angles.map(|form| learnt.add(&form)).count();
         Tangent {
             chain,
             samples,
-            known: Known::new(chain, given),
             pose,
-            angles: chain.groups.iter().map(|&n| vec![0.0; n + 1]).collect(),
+            rates: vec![0.0; turning],
+            learnt,
             slides: vec![0.0; chain.axes.len()],
         }
     }
@@ -36,17 +43,13 @@ impl<'a> Tangent<'a> {
         match step.unknown {
             Unknown::Slide(k) => self.slides[k] = rate,
             Unknown::Angle(d) => {
-                let joined: Vec<usize> = (0..self.angles[d.group].len())
-                    .filter(|&n| {
-                        self.known.knows(Unknown::Angle(Difference { group: d.group, from: d.to, to: n }))
-                    })
-                    .collect();
-                let nodes = &mut self.angles[d.group];
-                let by = rate - (nodes[d.to] - nodes[d.from]);
-                joined.into_iter().for_each(|n| nodes[n] += by);
+                let form = self.chain.form(d);
+                if self.learnt.made(&form).is_none() {
+                    self.learnt.add(&form);
+                    self.rates.push(rate);
+                }
             }
         }
-        self.known.learn(step.unknown);
     }
 
     /// The changes of all atoms.
@@ -55,8 +58,8 @@ impl<'a> Tangent<'a> {
         let of = |a: usize| {
             let kind = self.chain.algebra.kind(a as Atom);
             let turn = |n: usize| {
-                let d = self.chain.differences[n];
-                self.angles[d.group][d.to] - self.angles[d.group][d.from]
+                let made = self.learnt.made(&self.chain.forms[n]).unwrap_or_default();
+                made.iter().zip(&self.rates).map(|(x, rate)| *x as f64 * rate).sum::<f64>()
             };
             let partner = |kind: Kind| self.chain.algebra.find(kind).map_or(0.0, |b| values[b as usize]);
             match kind {
