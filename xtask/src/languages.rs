@@ -378,7 +378,9 @@ pub fn python_in(folder: &Path, packages: &[&str]) -> Result<PathBuf> {
     let listed = String::from_utf8_lossy(&listed.stdout).to_lowercase().replace('_', "-");
     let has = |package: &&&str| {
         let name = package.to_lowercase().replace('_', "-");
-        listed.lines().any(|l| l == name || l.split("==").next() == Some(&name))
+        // What a package brings besides is not listed with it.
+        let name = name.split('[').next().unwrap_or_default();
+        listed.lines().any(|l| l == name || l.split("==").next() == Some(name))
     };
     let missing: Vec<&&str> = packages.iter().filter(|p| !has(p)).collect();
     if !missing.is_empty() {

@@ -44,11 +44,11 @@ cargo xtask tidy [--rules | --sessions]
 cargo xtask index                the index of files, by what each says of itself
 cargo xtask surface              public items that nobody uses, by their names
 cargo xtask bench [--write | --quick] [evaluation] [dynamics] [gpu] [inverse] [arms] [answers] [derivation]
-                   [descriptions] [report] [python]
+                   [descriptions] [report] [python] [columns]
                                  speed of evaluators and generated code beside peers, forward and inverse, and of
                                  inverse kinematics without a closed form; CPU time from start to a first answer, of
                                  deriving every robot of the catalogue, beside SymPy's, and of writing its report; the package beside other
-                                 packages; kernels on a GPU where nvcc is; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
+                                 packages; files of columns beside reading and writing them alone; kernels on a GPU where nvcc is; --write renews docs/performance.md, --quick takes fewer poses (arms); fails if a figure is above its limit
 cargo xtask languages [--every]  builds and runs generated source code in every language; --every: in C and Rust of all robots
 cargo xtask c [--write]          the C library: its header compared, its examples in C, C++ and Go and its tests built and run;
                                  --write renews the header
@@ -74,7 +74,8 @@ cargo xtask documents            reports as LaTeX, Typst and a browser read them
 cargo xtask errata [--write]     compares docs/errata.md with what `denavit check` says of the documents; --write renews it
 cargo xtask soak [--seconds N] [TARGET...]
                                  feeds random bytes to the readers, N seconds each (60); TARGET `suites`: the tests at the size
-                                 that takes hours; `attack`: arms and poses at random, an hour
+                                 that takes hours; `attack`: arms and poses at random, an hour;
+                                 `clusters`: record batches on Ray, Spark, Daft and DuckDB, started here (1.5 GB of packages, Java)
 cargo xtask miri                 the evaluators' conformance suite under Miri (half an hour)
 cargo xtask help                 this text
 ";

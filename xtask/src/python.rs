@@ -15,7 +15,12 @@ const SITE: &str = "docs/site";
 /// How ruff is to look at it.
 const RULES: &str = "crates/python/pyproject.toml";
 /// What tests use.
-const PACKAGES: &[&str] = &["numpy", "pytest", "hypothesis", "scipy", "sympy", "jax", "ikpy", "nbformat"];
+const PACKAGES: &[&str] =
+    &["numpy", "pytest", "hypothesis", "scipy", "sympy", "jax", "ikpy", "nbformat", "pyarrow", "duckdb"];
+/// What the tests on clusters use besides.
+const CLUSTERS: &[&str] = &["numpy", "pytest", "pyarrow", "duckdb", "pandas", "ray[data]", "pyspark", "daft"];
+/// The folder of their environment, in the target: 1.5 GB.
+const ENVIRONMENT: &str = "clusters";
 /// What reads the package itself.
 const READERS: &[&str] = &["mypy", "basedpyright", "ruff"];
 
@@ -30,6 +35,25 @@ pub fn test() -> Result<()> {
     style(&python)?;
     types(&python, &folder)?;
     let mut tests = pytest(&python, &program)?;
+    succeed(tests.env("PYTHONPATH", &folder))
+}
+
+/// Runs what is computed over record batches on local clusters of Ray and Spark, and in Daft and DuckDB, each started and stopped by its test.
+///
+/// # Errors
+/// If something fails, or there is no Java.
+pub fn clusters() -> Result<()> {
+    if command("java").arg("-version").output().is_err() {
+        bail!("Spark needs Java: `apt-get install default-jre-headless`, or as it is called elsewhere");
+    }
+    let python = languages::python_in(&target().join(ENVIRONMENT), CLUSTERS)?;
+    let program = program()?;
+    let folder = built(&scratch()?.join("python"))?;
+    let mut tests = command(&python);
+    tests
+        .args(["-m", "pytest", "-q", "-s", "-p", "no:cacheprovider"])
+        .arg(path(TESTS).join("test_clusters.py"));
+    tests.env("DENAVIT", program).env("DENAVIT_CLUSTERS", "1").env("PYTHONDONTWRITEBYTECODE", "1");
     succeed(tests.env("PYTHONPATH", &folder))
 }
 

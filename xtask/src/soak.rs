@@ -1,6 +1,6 @@
 //! What takes too long for a test: fuzzing of the readers, inverse models on very many poses, Miri.
 
-use crate::{command, path, succeed};
+use crate::{command, path, python, succeed};
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::process::{Command, Stdio};
@@ -20,6 +20,7 @@ const TARGETS: &[(&str, &str)] = &[
 /// The soaks that are not fuzz targets: tests at their full size, and arms at random.
 const SUITES: &str = "suites";
 const ATTACK: &str = "attack";
+const CLUSTERS: &str = "clusters";
 /// Longest input in bytes.
 const MAX_BYTES: u32 = 4096;
 /// Seconds after which one input counts as a hang (the build is unoptimised for speed and instrumented).
@@ -32,9 +33,9 @@ const MEMORY: u32 = 2048;
 /// # Errors
 /// If a target crashes (the input is left under `fuzz/artifacts`), or the tools are not there.
 pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
-    let is_known = |w: &str| [SUITES, ATTACK].contains(&w) || TARGETS.iter().any(|t| t.0 == w);
+    let is_known = |w: &str| [SUITES, ATTACK, CLUSTERS].contains(&w) || TARGETS.iter().any(|t| t.0 == w);
     if let Some(unknown) = wanted.iter().find(|w| !is_known(w)) {
-        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([SUITES, ATTACK]).collect();
+        let known: Vec<&str> = TARGETS.iter().map(|t| t.0).chain([SUITES, ATTACK, CLUSTERS]).collect();
         bail!("no fuzz target `{unknown}`; there are {}", known.join(", "));
     }
     if wanted.is_empty() || wanted.contains(&SUITES) {
@@ -43,7 +44,11 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
     if wanted.is_empty() || wanted.contains(&ATTACK) {
         attack()?;
     }
-    if !wanted.is_empty() && wanted.iter().all(|w| [SUITES, ATTACK].contains(w)) {
+    if wanted.is_empty() || wanted.contains(&CLUSTERS) {
+        println!("\n━━ {CLUSTERS} ━━");
+        python::clusters()?;
+    }
+    if !wanted.is_empty() && wanted.iter().all(|w| [SUITES, ATTACK, CLUSTERS].contains(w)) {
         return Ok(());
     }
     install()?;

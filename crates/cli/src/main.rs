@@ -24,6 +24,8 @@ fn main() -> ExitCode {
         Command::Jacobian(a) => commands::jacobian::run(&a),
         Command::Dynamics(a) => commands::dynamics::run(&a),
         Command::Path(a) => commands::path::run(&a),
+        #[cfg(feature = "parquet")]
+        Command::Map(a) => commands::map::run(&a),
         Command::Derive(a) => commands::derive::run(&a),
         Command::Report(a) => commands::report::run(&a),
         Command::Exercise(a) => commands::exercise::run(&a),

@@ -4,6 +4,8 @@
 //! its own, which ends with it. The package's own Python gives this its arguments, words and classes.
 
 mod arrays;
+mod batches;
+mod border;
 mod compiled;
 mod exercises;
 mod formulas;
@@ -28,6 +30,8 @@ fn _denavit(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<compiled::Compiled>()?;
     module.add_class::<compiled::CompiledIk>()?;
     module.add_class::<motion::Moving>()?;
+    module.add_class::<batches::Columns>()?;
+    module.add_class::<batches::Lent>()?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(robot::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(symbols::not_proved, module)?)?;

@@ -1,6 +1,7 @@
 //! A robot: the text of its file, and what was compiled of it.
 
 use crate::arrays::Call;
+use crate::batches::{Columns, Wish};
 use crate::compiled::{Compiled, CompiledIk};
 use crate::exercises;
 use crate::formulas;
@@ -322,6 +323,11 @@ impl Core {
         let call = Call { function: &function, n, tail: &tail, out: None, threads };
         let named = programs::reads(wanted).iter().map(|&v| VECTORS[v]);
         call.of(py, &named.zip(&vectors).collect::<Vec<_>>())
+    }
+
+    /// Functions over record batches.
+    fn columns(&self, py: Python<'_>, wish: Wish) -> PyResult<Columns> {
+        self.derive(py, move |d| Columns::of(d, wish))
     }
 
     /// Functions as one compiled program.

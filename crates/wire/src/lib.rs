@@ -19,6 +19,7 @@ pub mod forward;
 pub mod inverse;
 pub mod jacobian;
 pub mod linkage;
+pub mod mapped;
 pub mod parallel;
 pub mod parts;
 pub mod path;

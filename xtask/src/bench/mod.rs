@@ -3,6 +3,7 @@
 mod answers;
 mod arms;
 mod closed_form;
+mod columns;
 mod cuda;
 mod derivation;
 mod descriptions;
@@ -35,6 +36,7 @@ const PARTS: &[Part] = &[
     ("descriptions", "Descriptions", |_| descriptions::run()),
     ("report", "Reports", |_| report::run()),
     ("python", "From Python", |_| python::run()),
+    ("columns", "Files of columns", columns::run),
 ];
 /// What stands behind a figure that is above its limit.
 const MISSED: &str = "**missed**";

@@ -17,6 +17,7 @@ const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const RECORDING: &str = "denavit-recording";
+const MAP: &str = "denavit-map";
 const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -40,6 +41,7 @@ const BELOW_DOORS: &[&str] = &[
     REPORT,
     WIRE,
     LOAD,
+    MAP,
 ];
 
 /// Folders and packages, and the project's packages that each may use; tests may use more.
@@ -64,6 +66,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
         &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, REPORT],
     ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
+    ("crates/map", MAP, &[SYMBOLIC, PROGRAM, ROBOT, WIRE]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
     ("crates/web", "denavit-web", BELOW_DOORS),
     (
@@ -86,6 +89,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             WIRE,
             LOAD,
             JIT,
+            MAP,
         ],
     ),
     ("crates/ffi", "denavit-ffi", BELOW_DOORS),

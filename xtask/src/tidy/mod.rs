@@ -31,6 +31,7 @@ const UNSAFE_FILES: &[&str] = &[
     "crates/ffi/src/c/robot.rs",
     "crates/ffi/src/c/solver.rs",
     "crates/program/src/evaluate/machine.rs",
+    "crates/python/src/border.rs",
     "crates/jit/src/native.rs",
     "crates/web/src/border.rs",
 ];

@@ -4,6 +4,8 @@ mod convert;
 mod dynamics;
 mod exercise;
 mod generate;
+#[cfg(feature = "parquet")]
+mod map;
 mod path;
 mod recording;
 mod report;
@@ -18,6 +20,8 @@ pub use convert::{ConvertArguments, ConvertFormat};
 pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
+#[cfg(feature = "parquet")]
+pub use map::{Columns, CompressionName, MapArguments, Wanted};
 pub use path::{PathArguments, PathFormat};
 pub use recording::RecordingArguments;
 pub use report::{LevelName, PaceName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
@@ -60,6 +64,9 @@ pub enum Command {
     Dynamics(DynamicsArguments),
     /// Plan a path of the joints or the hand: followed on one branch, timed within limits, sampled
     Path(PathArguments),
+    /// Compute over the rows of a file, Parquet, Arrow, CSV or NPZ: poses, Jacobians, torques, joints for poses
+    #[cfg(feature = "parquet")]
+    Map(Box<MapArguments>),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
     Derive(DeriveArguments),
     /// Write everything about a robot as a document: figures, table, models, solutions, singularities, workspace

@@ -11,6 +11,8 @@ pub mod fk;
 pub mod generate;
 pub mod ik;
 pub mod jacobian;
+#[cfg(feature = "parquet")]
+pub mod map;
 pub mod parallel;
 pub mod path;
 pub mod report;

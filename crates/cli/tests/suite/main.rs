@@ -15,6 +15,8 @@ mod generate;
 mod ik;
 mod languages;
 mod linkages;
+#[cfg(feature = "parquet")]
+mod map;
 mod motion;
 mod parallel;
 mod recordings;

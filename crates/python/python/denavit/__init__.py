@@ -18,7 +18,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._answers import Answer, Answers, Branches, Family, Obstacle
-from ._denavit import Compiled, CompiledIk, __version__
+from ._denavit import Batch, Compiled, CompiledIk, __version__
 from ._errors import (
     ChainError,
     DenavitError,
@@ -39,6 +39,7 @@ from ._robot import Joint, Robot, catalogue
 from ._slopes import AccelerationDerivatives, TorqueDerivatives
 
 if TYPE_CHECKING:
+    from ._batch import BatchMap, Counts, map_batch
     from ._derivations import (
         Derivation,
         DynamicFormulas,
@@ -54,6 +55,8 @@ __all__ = [
     "AccelerationDerivatives",
     "Answer",
     "Answers",
+    "Batch",
+    "BatchMap",
     "Branches",
     "ChainError",
     "Checked",
@@ -61,6 +64,7 @@ __all__ = [
     "Clearance",
     "Compiled",
     "CompiledIk",
+    "Counts",
     "DenavitError",
     "Derivation",
     "DescriptionError",
@@ -97,10 +101,12 @@ __all__ = [
     "__version__",
     "catalogue",
     "check",
+    "map_batch",
 ]
 
 #: What is read when it is first needed, and where it is.
 _LATE = {
+    "_batch": ["BatchMap", "Counts", "map_batch"],
     "_derivations": [
         "Derivation",
         "DynamicFormulas",

@@ -135,6 +135,16 @@ impl Frame {
         self.named.as_ref().map_or(table, |n| table * n.1)
     }
 
+    /// The row's frame that it stands on.
+    pub fn row(&self) -> usize {
+        self.on
+    }
+
+    /// Where it stands there, if it is another.
+    pub fn offset(&self) -> Option<Transform<f64>> {
+        self.named.as_ref().map(|n| n.1)
+    }
+
     /// The row's frame that it stands on, and its origin there.
     pub fn point(&self) -> (usize, Vector<f64>) {
         (self.on, self.named.as_ref().map_or_else(Vector::zero, |n| n.1.translation))

@@ -1,0 +1,7 @@
+//! Tests of the crate's public face.
+
+mod columns;
+mod common;
+mod files;
+mod formats;
+mod resume;
