@@ -17,6 +17,7 @@ const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const RECORDING: &str = "denavit-recording";
+const IDENTIFICATION: &str = "denavit-identification";
 const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -36,6 +37,7 @@ const BELOW_DOORS: &[&str] = &[
     CERTIFICATE,
     GENERATE,
     RECORDING,
+    IDENTIFICATION,
     TABLES,
     REPORT,
     WIRE,
@@ -56,12 +58,25 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
+    ("crates/identification", IDENTIFICATION, &[SYMBOLIC, ROBOT, RECORDING]),
     ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     (
         "crates/wire",
         WIRE,
-        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, REPORT],
+        &[
+            SYMBOLIC,
+            READING,
+            PROGRAM,
+            EMIT,
+            ROBOT,
+            PARALLEL,
+            CHECK,
+            GENERATE,
+            RECORDING,
+            IDENTIFICATION,
+            REPORT,
+        ],
     ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),

@@ -4,6 +4,7 @@ mod convert;
 mod dynamics;
 mod exercise;
 mod generate;
+mod identify;
 mod path;
 mod recording;
 mod report;
@@ -18,6 +19,7 @@ pub use convert::{ConvertArguments, ConvertFormat};
 pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
+pub use identify::{CriterionOf, IdentifyArguments, PriorName};
 pub use path::{PathArguments, PathFormat};
 pub use recording::RecordingArguments;
 pub use report::{LevelName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
@@ -58,6 +60,8 @@ pub enum Command {
     Jacobian(JacobianArguments),
     /// Compute torques, inertia and accelerations of an arm with masses, or derive base parameters and the torques as formulas
     Dynamics(DynamicsArguments),
+    /// Identify base parameters, friction and masses that can be from recorded motion and torques, or search a motion that shows them
+    Identify(IdentifyArguments),
     /// Plan a path of the joints or the hand: followed on one branch, timed within limits, sampled
     Path(PathArguments),
     /// Derive link transforms, the simplified forward model, and the shortest algorithm for it
