@@ -79,7 +79,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 7] = [
+    let soaks: [(&str, &[&str]); 9] = [
         (
             "denavit",
             &["coupled::", "inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"],
@@ -93,8 +93,12 @@ fn suites() -> Result<()> {
         ("denavit-generate", &["ikfast::", "conformance::"]),
         // Documents that nobody should write; those that take minutes each are in no other test.
         ("denavit-check", &["hostile::", "--include-ignored"]),
+        // A thousand sheets of each kind of exercises, marked.
+        ("denavit-report", &["exercise_marks::"]),
         // Thousands of recordings with slips, alone and in pairs, and without any.
         ("denavit-recording", &[]),
+        // How many parameters are within their deviations, over hundreds of recordings.
+        ("denavit-identification", &[]),
     ];
     for (package, tests) in soaks {
         let mut cargo = command("cargo");

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Ik(a) => commands::ik::run(&a),
         Command::Jacobian(a) => commands::jacobian::run(&a),
         Command::Dynamics(a) => commands::dynamics::run(&a),
+        Command::Identify(a) => commands::identify::run(&a),
         Command::Path(a) => commands::path::run(&a),
         #[cfg(feature = "parquet")]
         Command::Map(a) => commands::map::run(&a),

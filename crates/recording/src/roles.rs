@@ -117,21 +117,23 @@ const POSES: &[&str] = &[
 ];
 
 /// Small letters, digits and Greek ones alone.
-fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect()
 }
 
 /// A name in front of its number, and the number.
-fn numbered(name: &str) -> Option<(String, usize)> {
+pub(crate) fn numbered(name: &str) -> Option<(String, usize)> {
     let trimmed = name.trim_end_matches([']', ')', '}']);
     let digits = trimmed.len() - trimmed.bytes().rev().take_while(u8::is_ascii_digit).count();
     let number = trimmed[digits..].parse().ok()?;
     Some((plain(&trimmed[..digits]), number))
 }
 
-/// Columns told by hand.
-fn told(recording: &Recording, text: &str) -> Result<Vec<usize>, RolesError> {
-    let names: Vec<&str> = recording.columns.iter().map(|c| c.name.as_str()).collect();
+/// Columns told by hand, as names with commas or `first..last`, by their numbers.
+///
+/// # Errors
+/// If there is no such column.
+pub fn columns_told(names: &[&str], text: &str) -> Result<Vec<usize>, RolesError> {
     let find = |name: &str| {
         let name = name.trim();
         let exact = names.iter().position(|n| *n == name);
@@ -164,7 +166,8 @@ impl Roles {
     /// # Errors
     /// If a column is not there, or nothing says which columns are meant.
     pub fn find(recording: &Recording, arm: &Arm, by_hand: &Told) -> Result<Self, RolesError> {
-        let by = |text: &Option<String>| text.as_deref().map(|t| told(recording, t)).transpose();
+        let all: Vec<&str> = recording.columns.iter().map(|c| c.name.as_str()).collect();
+        let by = |text: &Option<String>| text.as_deref().map(|t| columns_told(&all, t)).transpose();
         let (time, joints, position, rotation) =
             (by(&by_hand.time)?, by(&by_hand.joints)?, by(&by_hand.position)?, by(&by_hand.rotation)?);
         let search = Names::of(recording);

@@ -16,6 +16,7 @@ pub mod dynamics;
 pub mod exercise;
 pub mod finding;
 pub mod forward;
+pub mod identification;
 pub mod inverse;
 pub mod jacobian;
 pub mod linkage;

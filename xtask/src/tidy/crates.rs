@@ -18,6 +18,7 @@ const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const RECORDING: &str = "denavit-recording";
 const MAP: &str = "denavit-map";
+const IDENTIFICATION: &str = "denavit-identification";
 const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -37,6 +38,7 @@ const BELOW_DOORS: &[&str] = &[
     CERTIFICATE,
     GENERATE,
     RECORDING,
+    IDENTIFICATION,
     TABLES,
     REPORT,
     WIRE,
@@ -58,12 +60,25 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
+    ("crates/identification", IDENTIFICATION, &[SYMBOLIC, ROBOT, RECORDING]),
     ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     (
         "crates/wire",
         WIRE,
-        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, REPORT],
+        &[
+            SYMBOLIC,
+            READING,
+            PROGRAM,
+            EMIT,
+            ROBOT,
+            PARALLEL,
+            CHECK,
+            GENERATE,
+            RECORDING,
+            IDENTIFICATION,
+            REPORT,
+        ],
     ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/map", MAP, &[SYMBOLIC, PROGRAM, ROBOT, WIRE]),

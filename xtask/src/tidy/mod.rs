@@ -47,6 +47,7 @@ const SCIENCE: &[&str] = &[
     "crates/certificate/src/",
     "crates/generate/src/",
     "crates/recording/src/",
+    "crates/identification/src/",
     "crates/report/src/",
     "crates/wire/src/",
 ];

@@ -4,6 +4,7 @@ mod convert;
 mod dynamics;
 mod exercise;
 mod generate;
+mod identify;
 #[cfg(feature = "parquet")]
 mod map;
 mod path;
@@ -20,6 +21,7 @@ pub use convert::{ConvertArguments, ConvertFormat};
 pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
 pub use generate::{GenerateArguments, GoalName, LanguageName};
+pub use identify::{CriterionOf, IdentifyArguments, PriorName};
 #[cfg(feature = "parquet")]
 pub use map::{Columns, CompressionName, MapArguments, Wanted};
 pub use path::{PathArguments, PathFormat};
@@ -62,6 +64,8 @@ pub enum Command {
     Jacobian(JacobianArguments),
     /// Compute torques, inertia and accelerations of an arm with masses, or derive base parameters and the torques as formulas
     Dynamics(DynamicsArguments),
+    /// Identify base parameters, friction and masses that can be from recorded motion and torques, or search a motion that shows them
+    Identify(IdentifyArguments),
     /// Plan a path of the joints or the hand: followed on one branch, timed within limits, sampled
     Path(PathArguments),
     /// Compute over the rows of a file, Parquet, Arrow, CSV or NPZ: poses, Jacobians, torques, joints for poses

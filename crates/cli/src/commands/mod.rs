@@ -9,6 +9,7 @@ pub mod dynamics;
 pub mod exercise;
 pub mod fk;
 pub mod generate;
+pub mod identify;
 pub mod ik;
 pub mod jacobian;
 #[cfg(feature = "parquet")]

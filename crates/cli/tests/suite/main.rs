@@ -12,6 +12,7 @@ mod dynamics;
 mod dynamics_said;
 mod exercise;
 mod generate;
+mod identify;
 mod ik;
 mod languages;
 mod linkages;

@@ -144,7 +144,10 @@ fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm
 }
 
 /// Writes a file whole or not at all.
-fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
     let failed = |e: std::io::Error| Failure::Input(format!("error: {}: {e}", file.display()));
     let mut beside = file.as_os_str().to_owned();
     beside.push(format!(".{}.part", std::process::id()));

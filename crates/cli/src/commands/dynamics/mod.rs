@@ -402,7 +402,10 @@ fn torques(joints: &[(String, JointKind)], text: &str) -> Result<Vec<f64>, Failu
 }
 
 /// A direction, or three components.
-fn gravity(text: &str) -> Result<[Expr; 3], Failure> {
+///
+/// # Errors
+/// If it is none.
+pub fn gravity(text: &str) -> Result<[Expr; 3], Failure> {
     let size = Rational::new(GRAVITY.0, GRAVITY.1);
     let o = Rational::ZERO;
     let along = |axis: usize, size: Rational| -> [Rational; 3] {

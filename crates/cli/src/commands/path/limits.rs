@@ -61,7 +61,10 @@ fn efforts(description: &Description, around: &Around, file: &str) -> Result<Vec
 }
 
 /// One value for all joints, or one each; `100deg/s` or a plain number.
-fn given(
+///
+/// # Errors
+/// If a value cannot be read, or there are others than joints.
+pub fn given(
     description: &Description,
     text: &Option<String>,
     option: &str,

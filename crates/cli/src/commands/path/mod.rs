@@ -1,6 +1,6 @@
 //! `denavit path`: joint and Cartesian paths, followed, timed and sampled.
 
-mod limits;
+pub mod limits;
 mod motion;
 mod plot;
 mod report;
