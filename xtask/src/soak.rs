@@ -74,7 +74,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 7] = [
+    let soaks: [(&str, &[&str]); 8] = [
         ("denavit", &["inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"]),
         // Ten thousand derivations, each in a store of its own.
         ("denavit", &["scope::", "--include-ignored"]),
@@ -87,6 +87,8 @@ fn suites() -> Result<()> {
         ("denavit-check", &["hostile::", "--include-ignored"]),
         // Thousands of recordings with slips, alone and in pairs, and without any.
         ("denavit-recording", &[]),
+        // A hundred calibrated arms in each of four cases.
+        ("denavit-calibration", &[]),
     ];
     for (package, tests) in soaks {
         let mut cargo = command("cargo");

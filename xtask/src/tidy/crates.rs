@@ -17,6 +17,7 @@ const CHECK: &str = "denavit-check";
 const CERTIFICATE: &str = "denavit-certificate";
 const GENERATE: &str = "denavit-generate";
 const RECORDING: &str = "denavit-recording";
+const CALIBRATION: &str = "denavit-calibration";
 const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -36,6 +37,7 @@ const BELOW_DOORS: &[&str] = &[
     CERTIFICATE,
     GENERATE,
     RECORDING,
+    CALIBRATION,
     TABLES,
     REPORT,
     WIRE,
@@ -56,12 +58,13 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/certificate", CERTIFICATE, &[SYMBOLIC, PROGRAM, ROBOT, CHECK]),
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
+    ("crates/calibration", CALIBRATION, &[SYMBOLIC, ROBOT, RECORDING]),
     ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     (
         "crates/wire",
         WIRE,
-        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, REPORT],
+        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, CALIBRATION, REPORT],
     ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/cli", "denavit-cli", BELOW_DOORS),
@@ -81,6 +84,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             CERTIFICATE,
             GENERATE,
             RECORDING,
+            CALIBRATION,
             TABLES,
             REPORT,
             WIRE,

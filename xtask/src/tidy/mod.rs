@@ -46,6 +46,7 @@ const SCIENCE: &[&str] = &[
     "crates/certificate/src/",
     "crates/generate/src/",
     "crates/recording/src/",
+    "crates/calibration/src/",
     "crates/report/src/",
     "crates/wire/src/",
 ];

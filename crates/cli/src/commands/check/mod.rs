@@ -6,7 +6,7 @@ mod html;
 mod lerobot;
 mod markdown;
 mod marked;
-mod recording;
+pub mod recording;
 pub mod rubric;
 mod sheet;
 mod terminal;

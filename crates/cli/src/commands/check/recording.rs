@@ -144,7 +144,7 @@ fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm
 }
 
 /// Writes a file whole or not at all.
-fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
+pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
     let failed = |e: std::io::Error| Failure::Input(format!("error: {}: {e}", file.display()));
     let mut beside = file.as_os_str().to_owned();
     beside.push(format!(".{}.part", std::process::id()));
@@ -156,7 +156,7 @@ fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
 }
 
 /// A column with what its header says.
-fn column(c: denavit_tables::Column) -> Column {
+pub fn column(c: denavit_tables::Column) -> Column {
     let said = c.unit.as_deref().and_then(Said::named);
     // A unit that is none stays in the name.
     let name = match (&c.unit, said) {
