@@ -79,7 +79,7 @@ pub fn run(seconds: u32, wanted: &[&str]) -> Result<()> {
 /// ones, a million for each arm by elimination, singular poses by thousands; hours.
 fn suites() -> Result<()> {
     println!("\n━━ {SUITES} ━━");
-    let soaks: [(&str, &[&str]); 9] = [
+    let soaks: [(&str, &[&str]); 10] = [
         (
             "denavit",
             &["coupled::", "inverse::", "singular::", "redundant::", "numeric::", "motion_jerk_torques::"],

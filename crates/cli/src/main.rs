@@ -31,6 +31,7 @@ fn main() -> ExitCode {
         Command::Report(a) => commands::report::run(&a),
         Command::Exercise(a) => commands::exercise::run(&a),
         Command::Check(a) => commands::check::run(a),
+        Command::Calibrate(a) => commands::calibrate::run(&a),
         Command::Generate(a) => commands::generate::run(&a),
         Command::View(a) => commands::view::run(&a),
     };

@@ -26,19 +26,24 @@ pub struct Arm {
     pub turns: Vec<bool>,
     /// Their limits; half a turn either way where a turning joint has none.
     pub limits: Vec<[f64; 2]>,
-    moving: Vec<Moving>,
+    /// The axes that move, base first.
+    pub moving: Vec<Moving>,
     /// The constants between the moving axes.
     pub constants: Vec<Transform<f64>>,
 }
 
+/// An axis that moves: it turns about z, or slides along it.
 #[derive(Clone, Debug)]
-struct Moving {
-    turns: bool,
-    terms: Vec<(usize, f64)>,
+pub struct Moving {
+    /// Whether it turns.
+    pub turns: bool,
+    /// How much it moves for one of each joint.
+    pub terms: Vec<(usize, f64)>,
 }
 
 impl Moving {
-    fn value(&self, q: &[f64]) -> f64 {
+    /// Its angle or displacement.
+    pub fn value(&self, q: &[f64]) -> f64 {
         self.terms.iter().map(|&(j, k)| k * q[j]).sum()
     }
 }
@@ -92,6 +97,21 @@ impl Arm {
             x = moved(&x, axis.turns, axis.value(q)) * *c;
         }
         x
+    }
+
+    /// The frame before each axis moves, whose z is the axis, and the tool, in the base.
+    pub fn frames_with(
+        &self,
+        constants: &[Transform<f64>],
+        q: &[f64],
+    ) -> (Vec<Transform<f64>>, Transform<f64>) {
+        let mut x = constants[0];
+        let mut before = Vec::with_capacity(self.moving.len());
+        for (axis, c) in self.moving.iter().zip(&constants[1..]) {
+            before.push(x);
+            x = moved(&x, axis.turns, axis.value(q)) * *c;
+        }
+        (before, x)
     }
 
     /// The tool in the base.

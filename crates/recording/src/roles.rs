@@ -166,6 +166,19 @@ impl Roles {
     /// # Errors
     /// If a column is not there, or nothing says which columns are meant.
     pub fn find(recording: &Recording, arm: &Arm, by_hand: &Told) -> Result<Self, RolesError> {
+        Self::find_parts(recording, arm, by_hand, [true; 2])
+    }
+
+    /// As [`Roles::find`] does; whether there have to be a position and an orientation is told.
+    ///
+    /// # Errors
+    /// If a column is not there, or nothing says which columns are meant.
+    pub fn find_parts(
+        recording: &Recording,
+        arm: &Arm,
+        by_hand: &Told,
+        needed: [bool; 2],
+    ) -> Result<Self, RolesError> {
         let all: Vec<&str> = recording.columns.iter().map(|c| c.name.as_str()).collect();
         let by = |text: &Option<String>| text.as_deref().map(|t| columns_told(&all, t)).transpose();
         let (time, joints, position, rotation) =
@@ -189,8 +202,8 @@ impl Roles {
         let names = || recording.columns.iter().map(|c| c.name.clone()).collect::<Vec<_>>();
         match () {
             () if roles.joints.is_empty() => Err(RolesError::Unknown("joints", names())),
-            () if roles.position.is_empty() => Err(RolesError::Unknown("position", names())),
-            () if roles.rotation.is_empty() => Err(RolesError::Unknown("rotation", names())),
+            () if needed[0] && roles.position.is_empty() => Err(RolesError::Unknown("position", names())),
+            () if needed[1] && roles.rotation.is_empty() => Err(RolesError::Unknown("rotation", names())),
             () => Ok(roles),
         }
     }

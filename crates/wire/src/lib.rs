@@ -6,6 +6,7 @@
 //! there is null, and so is a number that is not finite. Fields stand in the order of their names. `docs/json.md` tells it to
 //! those who read it.
 
+pub mod calibration;
 pub mod catalogue;
 pub mod check;
 pub mod class;

@@ -19,6 +19,7 @@ const GENERATE: &str = "denavit-generate";
 const RECORDING: &str = "denavit-recording";
 const MAP: &str = "denavit-map";
 const IDENTIFICATION: &str = "denavit-identification";
+const CALIBRATION: &str = "denavit-calibration";
 const TABLES: &str = "denavit-tables";
 const REPORT: &str = "denavit-report";
 const WIRE: &str = "denavit-wire";
@@ -39,6 +40,7 @@ const BELOW_DOORS: &[&str] = &[
     GENERATE,
     RECORDING,
     IDENTIFICATION,
+    CALIBRATION,
     TABLES,
     REPORT,
     WIRE,
@@ -61,6 +63,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
     ("crates/generate", GENERATE, &[SYMBOLIC, PROGRAM, EMIT, ELIMINATION, ROBOT]),
     ("crates/recording", RECORDING, &[SYMBOLIC, ROBOT]),
     ("crates/identification", IDENTIFICATION, &[SYMBOLIC, ROBOT, RECORDING]),
+    ("crates/calibration", CALIBRATION, &[SYMBOLIC, ROBOT, RECORDING]),
     ("crates/tables", TABLES, &[]),
     ("crates/report", REPORT, &[SYMBOLIC, READING, PROGRAM, ROBOT, CHECK]),
     (
@@ -79,6 +82,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             IDENTIFICATION,
             REPORT,
         ],
+        &[SYMBOLIC, READING, PROGRAM, EMIT, ROBOT, PARALLEL, CHECK, GENERATE, RECORDING, CALIBRATION, REPORT],
     ),
     ("crates/load", LOAD, &[SYMBOLIC, READING, ROBOT, PARALLEL]),
     ("crates/map", MAP, &[SYMBOLIC, PROGRAM, ROBOT, WIRE]),
@@ -99,6 +103,7 @@ const ALLOWED: &[(&str, &str, &[&str])] = &[
             CERTIFICATE,
             GENERATE,
             RECORDING,
+            CALIBRATION,
             TABLES,
             REPORT,
             WIRE,

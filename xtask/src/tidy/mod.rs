@@ -48,6 +48,7 @@ const SCIENCE: &[&str] = &[
     "crates/generate/src/",
     "crates/recording/src/",
     "crates/identification/src/",
+    "crates/calibration/src/",
     "crates/report/src/",
     "crates/wire/src/",
 ];

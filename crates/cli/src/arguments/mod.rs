@@ -1,5 +1,6 @@
 //! The command line.
 
+mod calibrate;
 mod convert;
 mod dynamics;
 mod exercise;
@@ -17,6 +18,7 @@ use denavit::description::Convention;
 use denavit::inverse::{Criterion, Goal};
 use std::path::PathBuf;
 
+pub use calibrate::{CalibrateArguments, MeasureName};
 pub use convert::{ConvertArguments, ConvertFormat};
 pub use dynamics::DynamicsArguments;
 pub use exercise::{ExerciseArguments, ExerciseFormat};
@@ -79,6 +81,8 @@ pub enum Command {
     Exercise(ExerciseArguments),
     /// Hold formulas that somebody printed against the robot: proved, or wrong and where the slip is; or recorded motion
     Check(CheckArguments),
+    /// Find the geometry of an arm out of measurements, say what they can show of it, or choose the poses to measure at
+    Calibrate(CalibrateArguments),
     /// Write source code in a chosen language, in a folder that builds and tests itself
     Generate(GenerateArguments),
     /// Open the page: a robot to turn, to drag and to understand, in the browser

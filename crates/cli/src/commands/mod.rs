@@ -1,5 +1,6 @@
 //! One file a verb; `stream` is what the verbs with `--input` share.
 
+pub mod calibrate;
 mod certificate;
 pub mod check;
 pub mod convert;

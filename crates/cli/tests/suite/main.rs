@@ -1,6 +1,7 @@
 //! Tests of the command line, one program.
 
 mod bounded;
+mod calibrate;
 mod certificate;
 mod check;
 mod class;

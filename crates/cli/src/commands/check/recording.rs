@@ -159,7 +159,7 @@ pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
 }
 
 /// A column with what its header says.
-fn column(c: denavit_tables::Column) -> Column {
+pub fn column(c: denavit_tables::Column) -> Column {
     let said = c.unit.as_deref().and_then(Said::named);
     // A unit that is none stays in the name.
     let name = match (&c.unit, said) {
