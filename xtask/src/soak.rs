@@ -97,6 +97,8 @@ fn suites() -> Result<()> {
         ("denavit-report", &["exercise_marks::"]),
         // Thousands of recordings with slips, alone and in pairs, and without any.
         ("denavit-recording", &[]),
+        // A hundred arms, calibrated: how many parameters are within their deviations.
+        ("denavit-calibration", &[]),
         // How many parameters are within their deviations, over hundreds of recordings.
         ("denavit-identification", &[]),
     ];
