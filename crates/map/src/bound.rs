@@ -290,7 +290,7 @@ fn poses(of: &Compiled, q: &[&Cow<'_, [f64]>], function: &denavit_program::Funct
         }
         let rows = own[0].len();
         let mut columns: Vec<Vec<f64>> = vec![Vec::with_capacity(rows); 3 + orientation.names().len()];
-        for row in 0..rows {
+        (0..rows).for_each(|row| {
             let x = |k: usize| own[k][row] + 0.0;
             let turned = Rotation::from_rows([3, 6, 9].map(|r| [x(r), x(r + 1), x(r + 2)]));
             let mut pose = Transform::from_rotation_translation(turned, Vector([x(0), x(1), x(2)]));
@@ -307,7 +307,7 @@ fn poses(of: &Compiled, q: &[&Cow<'_, [f64]>], function: &denavit_program::Funct
             for (column, x) in columns.iter_mut().zip(pose.translation.0.into_iter().chain(values)) {
                 column.push(x);
             }
-        }
+        });
         all.append(&mut columns);
     }
     all

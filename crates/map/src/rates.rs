@@ -39,7 +39,7 @@ impl Mobility {
         let rows = entries.first().map_or(0, Vec::len);
         let (mut manipulability, mut condition) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
         let mut jacobian = Jacobian { columns: vec![[0.0; 6]; n] };
-        for row in 0..rows {
+        (0..rows).for_each(|row| {
             for (c, column) in jacobian.columns.iter_mut().enumerate() {
                 *column = [0, 1, 2, 3, 4, 5].map(|r| entries[r * n + c][row]);
             }
@@ -53,7 +53,7 @@ impl Mobility {
             };
             manipulability.push(m);
             condition.push(c);
-        }
+        });
         [manipulability, condition]
     }
 }

@@ -16,10 +16,10 @@ pub struct MapArguments {
     /// The robot.
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The file that is read
+    /// The file that is read: .parquet, .arrow (.feather), .csv, .tsv or .npz
     #[arg(value_name = "FILE")]
     pub input: PathBuf,
-    /// The file that is written, by its ending
+    /// The file that is written, of one of these kinds by its ending: columns that are there, and behind them what is computed
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// What is computed of each row.
@@ -76,19 +76,19 @@ pub struct Wanted {
 #[derive(Args)]
 #[command(next_help_heading = "Columns")]
 pub struct Columns {
-    /// The joint variables: names with commas, `first..last`, or one column of lists
+    /// The joint variables: names with commas, `first..last`, or one column of lists (`q1` … or the names of the robot's file, or `q`)
     #[arg(long, value_name = "COLUMNS")]
     pub joints: Option<String>,
-    /// Their velocities
+    /// Their velocities (`qd1` …, or `qd`)
     #[arg(long, value_name = "COLUMNS")]
     pub velocities: Option<String>,
-    /// Their accelerations
+    /// Their accelerations (`qdd1` …, or `qdd`)
     #[arg(long, value_name = "COLUMNS")]
     pub accelerations: Option<String>,
-    /// The position of a pose
+    /// The position of a pose (`x`, `y`, `z`)
     #[arg(long, value_name = "COLUMNS")]
     pub position: Option<String>,
-    /// The orientation of a pose
+    /// The orientation of a pose (`r11` …, `qx` …, `rx` … as --orientation says)
     #[arg(long, value_name = "COLUMNS")]
     pub rotation: Option<String>,
     /// The joints to which a solution is to be near (those of --joints)

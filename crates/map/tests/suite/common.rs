@@ -13,6 +13,7 @@ use parquet::arrow::ArrowWriter;
 use parquet::file::properties::WriterProperties;
 use std::collections::HashMap;
 use std::fs::File;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -64,12 +65,35 @@ pub fn numbers(batch: &RecordBatch, name: &str) -> Vec<Option<f64>> {
     (0..own.len()).map(|k| own.is_valid(k).then(|| own.value(k))).collect()
 }
 
+/// A folder of its own, removed with it.
+pub struct Folder(PathBuf);
+
+impl Deref for Folder {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl AsRef<Path> for Folder {
+    fn as_ref(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
 /// A folder of its own.
-pub fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> Folder {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("map-{name}"));
     let _ = std::fs::remove_dir_all(&path);
     std::fs::create_dir_all(&path).expect("a folder");
-    path
+    Folder(path)
 }
 
 /// Writes batches as Parquet, with row groups of so many rows.
