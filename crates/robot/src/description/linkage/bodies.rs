@@ -42,6 +42,9 @@ impl Linkage {
             (name, own.map(|x| x.0).collect())
         });
         let poses = poses.collect();
+        // What is added to cut a loop is no tip.
+        let tip = m.tip(m.root).ok().map(|tip| m.bodies[tip].name.clone());
+        tree.tip = tip.filter(|name| tree.frames.iter().any(|f| f.name == *name));
         let mut closures = vec![];
         for (cut, hold) in cuts.iter().zip(&m.holds) {
             closures.push(closure(&mut tree, cut, hold)?);
