@@ -153,3 +153,32 @@ fn what_is_wrong_with_loops_has_its_place() {
         "{said}"
     );
 }
+
+#[test]
+fn a_model_of_mujocos_with_a_loop_is_a_linkage() {
+    let model = |closed: &str| {
+        format!(
+            "<mujoco model='four-bar'><worldbody>
+  <body name='crank'><joint name='crank'/><geom size='0.01'/>
+    <body name='coupler' pos='1 0 0' euler='0 0 36.86989765'><joint name='coupler'/><geom size='0.01'/>
+      <site name='point' pos='2 0 0'/></body></body>
+  <body name='rocker' pos='5 0 0'><joint name='rocker'/><geom size='0.01'/></body>
+</worldbody><equality>{closed}</equality><actuator><motor joint='crank'/></actuator></mujoco>"
+        )
+    };
+    let file =
+        File::new("loop.xml", &model("<connect name='pin' body1='coupler' body2='rocker' anchor='4 0 0'/>"));
+    let (code, shown, said) = run(&["show", file.name()]);
+    assert_eq!(code, 0, "{said}");
+    assert!(shown.contains("1 driven and 3 passive joints, 1 closed loop"), "{shown}");
+    assert!(shown.contains("pin: planar, R R R: p1, p2, p3 in closed form"), "{shown}");
+    let (code, placed, said) = run(&["fk", file.name(), "-q", "0.4", "--json"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(placed.contains("\"point\""), "{placed}");
+    // What cannot be assembled is left, as it was.
+    let file =
+        File::new("open.xml", &model("<weld body1='coupler' body2='rocker' relpose='0 0 1 1 0 0 0'/>"));
+    let (code, _, said) = run(&["show", file.name(), "--tip", "point"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("the closed loops are left: joints move as if they were open"), "{said}");
+}

@@ -47,6 +47,8 @@ fn loops_close_where_mujoco_closes_them() {
             "{}\n{text}",
             denavit::description::render(&found, "", text)
         );
+        // What is added to cut a loop is no tip.
+        assert!(linkage.way(None).map_or(true, |(tip, ..)| text.contains(&tip)));
         let own: Vec<&str> =
             case["driven"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
         let driven = joints(&linkage, false);

@@ -42,6 +42,9 @@ impl Linkage {
             (name, own.map(|x| x.0).collect())
         });
         let poses = poses.collect();
+        // What is added to cut a loop is no tip.
+        let tip = m.tip(m.root).ok().map(|tip| m.bodies[tip].name.clone());
+        tree.tip = tip.filter(|name| tree.frames.iter().any(|f| f.name == *name));
         let mut closures = vec![];
         for (cut, hold) in cuts.iter().zip(&m.holds) {
             closures.push(closure(&mut tree, cut, hold)?);
@@ -59,7 +62,7 @@ impl Names {
         Names(bodies.chain(m.joints.iter().map(|j| j.name.clone())).collect())
     }
 
-    fn new(&mut self, like: &str) -> String {
+    fn free(&mut self, like: &str) -> String {
         let mut name = like.to_string();
         while self.0.contains(&name) {
             name.push('_');
@@ -71,7 +74,7 @@ impl Names {
 
 /// What hangs on a body by a joint, or is fixed to it.
 fn hang(m: &mut Mechanism, names: &mut Names, name: &str, on: usize, joint: Joint) -> usize {
-    let name = names.new(name);
+    let name = names.free(name);
     m.bodies.push(Body { name, mass: None, is_unweighed: false, looks: vec![] });
     let child = m.bodies.len() - 1;
     m.joints.push(Joint { parent: on, child, ..joint });
@@ -107,8 +110,8 @@ fn keep_leaves(whole: &mut Mechanism, m: &Mechanism, names: &mut Names) {
     held.dedup();
     for body in held {
         let name = std::mem::take(&mut whole.bodies[body].name);
-        whole.bodies[body].name = names.new(&format!("{name} itself"));
-        let fixed = names.new(&format!("{name} frame"));
+        whole.bodies[body].name = names.free(&format!("{name} itself"));
+        let fixed = names.free(&format!("{name} frame"));
         whole.bodies.push(Body { name, mass: None, is_unweighed: false, looks: vec![] });
         let child = whole.bodies.len() - 1;
         whole.joints.push(Joint { parent: body, child, ..joint(fixed, None, Transform::identity(), z()) });
@@ -127,7 +130,7 @@ fn cut(whole: &mut Mechanism, m: &Mechanism, k: usize, poses: &[Transform<Expr>]
     // The frames of both sides as they stand with all joints at 0, so that the joint that is cut is at 0 there.
     let aligned = || (poses[b].rotation.inverse() * poses[a].rotation * left.rotation).map(readable::settled);
     let turns = |axis: Vector<Expr>, origin: Transform<Expr>, names: &mut Names| {
-        joint(names.new(&called), Some(JointKind::Revolute), origin, axis)
+        joint(names.free(&called), Some(JointKind::Revolute), origin, axis)
     };
     match hold.keeps {
         Keeps::Frame => {}
@@ -153,10 +156,10 @@ fn cut(whole: &mut Mechanism, m: &Mechanism, k: usize, poses: &[Transform<Expr>]
     let joint_name = cut_joint.as_ref().map(|j| j.name.clone());
     let own = match cut_joint {
         Some(joint) => joint,
-        None => joint(names.new(&format!("{called} left")), None, origin, z()),
+        None => joint(names.free(&format!("{called} left")), None, origin, z()),
     };
     let first = hang(whole, names, &format!("{called} left side"), on, own);
-    let fixed = joint(names.new(&format!("{called} right")), None, right, z());
+    let fixed = joint(names.free(&format!("{called} right")), None, right, z());
     let second = hang(whole, names, &format!("{called} right side"), b, fixed);
     let frames = [first, second].map(|body| whole.bodies[body].name.clone());
     Cut { joint: joint_name, frames }

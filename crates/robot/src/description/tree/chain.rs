@@ -118,7 +118,7 @@ impl Mechanism {
     }
 
     /// The leaf with the most joints on the way to it.
-    fn tip(&self, from: usize) -> Result<usize, NoChain> {
+    pub(in crate::description) fn tip(&self, from: usize) -> Result<usize, NoChain> {
         let mut is_above = vec![false; self.bodies.len()];
         is_above[from] = true;
         for &joint in &self.to_root(from, &self.joints_to()) {
