@@ -1,8 +1,8 @@
 //! Joints for poses, row by row.
 
 use crate::MapError;
+use crate::asked::Asked;
 use crate::columns::Fault;
-use crate::mapping::Compiled;
 use crate::outputs::{column, numbers_field};
 use crate::request::{Inverse, Orientation, Solutions};
 use crate::unit::{Quantity, Scale};
@@ -44,7 +44,7 @@ impl Solver {
     }
 
     /// How its columns are declared.
-    pub fn fields(&self, of: &Compiled) -> Vec<FieldRef> {
+    pub fn fields(&self, of: &Asked) -> Vec<FieldRef> {
         let prefix = &of.request.prefix;
         let joints = |label: &str| -> Vec<Field> {
             let each = of.joints.iter().zip(&of.is_angle);
@@ -79,7 +79,7 @@ impl Solver {
     /// The columns of poses; `faults` learns which rows hold none.
     pub fn columns(
         &self,
-        of: &Compiled,
+        of: &Asked,
         pose: &[Cow<'_, [f64]>],
         near: Option<&[Cow<'_, [f64]>]>,
         faults: &mut [Fault],

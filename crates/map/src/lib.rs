@@ -6,8 +6,10 @@
 //!
 //! With the feature `files`, [`files`] maps whole files, part by part.
 
+mod asked;
 mod bound;
 mod columns;
+mod compiled;
 #[cfg(feature = "files")]
 pub mod files;
 mod inverse;
