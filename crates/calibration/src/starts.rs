@@ -175,11 +175,11 @@ pub fn format_of(
     best.map(|f| (f.1, f.2)).ok_or(NoMeasurements::NoOrientation)
 }
 
+/// What is left over with a turn of the base and one of the tool, radians.
+type Turned = (f64, Rotation<f64>, Rotation<f64>);
+
 /// How far orientations are off as they are said, and with the best turns of base and tool.
-fn frames_of_turns(
-    model: &[Rotation<f64>],
-    seen: &[Rotation<f64>],
-) -> (f64, Option<(f64, Rotation<f64>, Rotation<f64>)>) {
+fn frames_of_turns(model: &[Rotation<f64>], seen: &[Rotation<f64>]) -> (f64, Option<Turned>) {
     let n = model.len();
     let mut random = Random(6);
     let mut any = || ((random.unit() * n as f64) as usize).min(n - 1);

@@ -299,7 +299,7 @@ fn used(d: &Description) -> Vec<Parameter> {
     let of_row = |r: &Row| {
         let limits = r.limits.iter().flatten().copied();
         let rates = r.velocity.into_iter().chain(r.acceleration);
-        let masses = r.mass_cells().into_iter().map(|c| c.1);
+        let masses = r.mass_cells().map(|c| c.1);
         limits.chain(rates).chain(masses).collect::<Vec<Expr>>()
     };
     let others = d.poses.iter().flat_map(|p| p.1.iter().copied()).chain(d.gravity.iter().flatten().copied());

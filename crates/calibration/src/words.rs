@@ -5,7 +5,7 @@ use crate::estimate::{Calibrated, Off};
 use crate::measurement::{Bar, Measurement};
 use crate::model::{Parameter, Problem};
 use crate::poses::Chosen;
-use crate::table::{CELLS, Rows, Table};
+use crate::table::{CELLS, Cell, Rows, Table};
 use crate::visible::{Cause, Visible, formula};
 use denavit::description::{Convention, Description};
 use denavit::geometry::Axis;
@@ -215,10 +215,10 @@ pub fn tied(tied: &Tied, description: &Description) -> String {
                 .iter()
                 .filter_map(|c| if let Place::Row(r, _) = c.0 { Some((r + 1).to_string()) } else { None })
                 .collect();
-            format!(
-                "{a} and {b}: the axes of rows {} are parallel, only the {what} is seen",
-                rows.join(" and ")
-            )
+            let is_along_x = tied.cells.iter().all(|c| matches!(c.0, Place::Row(_, Cell::A | Cell::Alpha)));
+            let axes = if is_along_x { "x axes" } else { "axes" };
+            let rows = rows.join(" and ");
+            format!("{a} and {b}: the {axes} of rows {rows} are parallel, only the {what} is seen")
         }
         (cells, [.., _]) if cells.iter().any(is_frame) => {
             let own: Vec<&String> =
