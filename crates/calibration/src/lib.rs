@@ -12,6 +12,8 @@ pub mod measured;
 pub mod measurement;
 pub mod model;
 mod poses;
+mod refused;
+mod starts;
 pub mod table;
 pub mod visible;
 pub mod words;

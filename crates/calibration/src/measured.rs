@@ -1,29 +1,22 @@
 //! Columns of a recording as measurements: which numbers are what, where base, tool, planes and centres stand at first.
 //!
 //! A full pose is looked at by `denavit_recording::hold` before: what has a slip is refused, but for frames, a zero or a length
-//! that are off, which calibration is for. Other measurements are held against the arm in closed form: Kabsch's turn for
-//! positions, a sphere or a plane through the points of the model.
+//! that are off, which calibration is for. Other measurements are held against the arm in closed form.
 
 use crate::estimate::Measured;
-use crate::linear::symmetric;
-use crate::measurement::{Bar, Fixture, Measurement, Reading};
-use crate::model::{Problem, frame_along};
+use crate::measurement::{Bar, Measurement, Reading};
+use crate::model::Problem;
+use crate::refused::MOST_GROUPS;
+pub use crate::refused::NoMeasurements;
+use crate::starts::{base_of_points, fixtures, format_of, framed, turned_frames};
 use denavit::geometry::{Rotation, Transform, Vector};
-use denavit::random::Random;
-use denavit_recording::turns::{Sum, between, log, solve};
 use denavit_recording::{
-    Arm, Column, Form, Format, Held, HoldError, HoldOptions, Recipe, Recording, Roles, Said, Slip, fixed,
-    frames, hold,
+    Arm, Column, Finding, Form, Format, Held, HoldError, HoldOptions, Recipe, Recording, Roles, Said, Slip,
+    fixed, hold,
 };
 
-/// More than this left over at first is not the arm that is said: metres, radians.
-const FAR: [f64; 2] = [0.06, 0.2];
-/// A base that is farther off than this is another one: metres, radians.
-const OTHER_BASE: [f64; 2] = [0.008, 0.021];
 /// The most rows that are used, evenly spread.
 const MOST: usize = 3000;
-/// The most planes or centres.
-const MOST_GROUPS: usize = 24;
 
 /// What is measured, and which columns beside those of the recording's roles hold it.
 #[derive(Clone, Debug)]
@@ -67,63 +60,6 @@ pub struct Prepared {
     pub held: Option<Box<Held>>,
 }
 
-/// Why columns are no measurements.
-#[derive(Clone, Debug)]
-pub enum NoMeasurements {
-    /// The recording has a slip: these are in it.
-    Slips(Box<Held>),
-    /// The columns cannot be held against the arm.
-    Hold(HoldError),
-    /// A column is missing: what it is for.
-    Column(&'static str),
-    /// Too few rows are whole: how many, of how many.
-    Rows(usize, usize),
-    /// The measurements do not follow from these joints: what is left over in the best case, metres or radians, and what would
-    /// mend it.
-    Far(f64, bool, Option<&'static str>),
-    /// The orientation is none in any format.
-    NoOrientation,
-    /// A recipe is for full poses.
-    Recipe,
-    /// So many planes or centres are too many.
-    Groups(usize),
-}
-
-impl std::fmt::Display for NoMeasurements {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NoMeasurements::Slips(_) => f.write_str("the recording has a slip"),
-            NoMeasurements::Hold(e) => write!(f, "{e}"),
-            NoMeasurements::Column(what) => write!(f, "which column is the {what} has to be said"),
-            NoMeasurements::Rows(whole, all) => {
-                write!(
-                    f,
-                    "{whole} of {all} rows have a number in every column that is needed; at least 6 are"
-                )
-            }
-            NoMeasurements::Far(by, is_turn, hint) => {
-                let by = if *is_turn {
-                    format!("{:.1}°", by.to_degrees())
-                } else {
-                    format!("{:.0} mm", 1e3 * by)
-                };
-                write!(f, "the measurements do not follow from these joints: {by} are left over")?;
-                match hint {
-                    Some(hint) => write!(f, "\n  = hint: they would if {hint}"),
-                    None => Ok(()),
-                }
-            }
-            NoMeasurements::NoOrientation => f.write_str("the orientation is none in any format"),
-            NoMeasurements::Recipe => f.write_str("a recipe is for full poses"),
-            NoMeasurements::Groups(count) => {
-                write!(f, "{count} planes or centres are told apart, more than {MOST_GROUPS}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoMeasurements {}
-
 /// Slips that leave the measurements what they are: frames, numbers of the arm itself, rows that are left out or weighed.
 fn is_let_pass(slip: &Slip, gains: bool) -> bool {
     match slip {
@@ -134,9 +70,16 @@ fn is_let_pass(slip: &Slip, gains: bool) -> bool {
     }
 }
 
+/// Frames before the arm and behind it.
+fn is_frame(slip: &Slip) -> bool {
+    matches!(slip, Slip::Base(_) | Slip::Tool(_))
+}
+
 /// The slips of a recording that calibration cannot pass.
-pub fn slips(held: &Held, gains: bool) -> Vec<&denavit_recording::Finding> {
-    held.findings.iter().filter(|f| !is_let_pass(&f.slip, gains)).collect()
+pub fn slips(held: &Held, gains: bool) -> Vec<&Finding> {
+    // A zero at an end is a turn of base or tool.
+    let passes = |f: &Finding| is_let_pass(&f.slip, gains) || f.same.iter().any(is_frame);
+    held.findings.iter().filter(|f| !passes(f)).collect()
 }
 
 /// Reads columns as measurements.
@@ -272,14 +215,9 @@ fn poses(arm: &Arm, recording: &Recording, roles: &Roles, what: &What) -> Result
                 return Err(NoMeasurements::Slips(Box::new(found)));
             }
             let own = &found.recipe;
-            let recipe = Recipe {
-                format: own.format,
-                scale: own.scale,
-                base: own.base,
-                tool: own.tool,
-                rows: own.rows.clone(),
-                ..plain
-            };
+            let recipe = Recipe { format: own.format, scale: own.scale, rows: own.rows.clone(), ..plain };
+            let has_frames = found.findings.iter().any(|f| is_frame(&f.slip) || f.same.iter().any(is_frame));
+            let recipe = if has_frames { framed(arm, recording, roles, recipe) } else { recipe };
             held = Some(Box::new(found));
             recipe
         }
@@ -346,226 +284,4 @@ impl Groups {
             .collect();
         Groups { of, count: known.len() }
     }
-}
-
-fn hands(problem: &Problem, joints: &[Vec<f64>]) -> Vec<Transform<f64>> {
-    joints.iter().map(|q| problem.arm.pose_with(&problem.constants, q)).collect()
-}
-
-fn mean(points: &[Vector<f64>]) -> Vector<f64> {
-    points.iter().fold(Vector::zero(), |a, b| a + *b).scale(1.0 / points.len().max(1) as f64)
-}
-
-/// The turn and shift that bring points of the model to those that were measured, and what is left over (Kabsch).
-fn kabsch(model: &[Vector<f64>], seen: &[Vector<f64>]) -> (Transform<f64>, f64) {
-    let (from, to) = (mean(model), mean(seen));
-    let mut sum = Sum::default();
-    model.iter().zip(seen).for_each(|(a, b)| sum.outer(*b - to, *a - from));
-    let turn = sum.nearest();
-    let frame = Transform::from_rotation_translation(turn, to - turn * from);
-    (frame, left_over(&frame, model, seen))
-}
-
-fn left_over(frame: &Transform<f64>, model: &[Vector<f64>], seen: &[Vector<f64>]) -> f64 {
-    let squares: f64 =
-        model.iter().zip(seen).map(|(a, b)| (frame.act_on_point(*a) - *b).norm().powi(2)).sum();
-    (squares / model.len().max(1) as f64).sqrt()
-}
-
-/// Where the robot's base stands among positions: where it is said, unless that is far off.
-fn base_of_points(
-    problem: &Problem,
-    joints: &[Vec<f64>],
-    readings: &[Reading],
-) -> Result<Transform<f64>, NoMeasurements> {
-    let seen: Vec<Vector<f64>> = readings.iter().map(|r| r.at).collect();
-    let points = |by: f64| -> Vec<Vector<f64>> {
-        let turned = |q: &Vec<f64>| -> Vec<f64> {
-            q.iter().zip(&problem.arm.turns).map(|(q, t)| if *t { by * q } else { *q }).collect()
-        };
-        let joints: Vec<Vec<f64>> = joints.iter().map(turned).collect();
-        hands(problem, &joints).iter().map(|x| x.translation).collect()
-    };
-    let model = points(1.0);
-    let (frame, left) = kabsch(&model, &seen);
-    if left <= FAR[0] {
-        let as_said = left_over(&Transform::identity(), &model, &seen);
-        let is_near = frame.translation.norm() < OTHER_BASE[0] && log(&frame.rotation).norm() < OTHER_BASE[1];
-        return Ok(if is_near || as_said < 1.5 * left { Transform::identity() } else { frame });
-    }
-    // What would mend it.
-    let degrees = points(1_f64.to_radians());
-    let metres: Vec<Vector<f64>> = seen.iter().map(|p| p.scale(1e-3)).collect();
-    let hints: [(f64, &'static str); 3] = [
-        (kabsch(&degrees, &seen).1, "the joints are in degrees: say it in the head, `q1 [deg]`"),
-        (kabsch(&model, &metres).1, "the positions are in millimetres: say it in the head, `x [mm]`"),
-        (
-            kabsch(&degrees, &metres).1,
-            "the joints are in degrees and the positions in millimetres: say it in the head, `q1 [deg]`, `x [mm]`",
-        ),
-    ];
-    let best = hints.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|h| h.0 <= FAR[0]);
-    Err(NoMeasurements::Far(left, false, best.map(|h| h.1)))
-}
-
-/// The format in which the angles between orientations are those of the model, and the orientations.
-fn format_of(
-    problem: &Problem,
-    joints: &[Vec<f64>],
-    raw: &[Vec<f64>],
-    said: Option<Said>,
-) -> Result<(Format, Vec<Rotation<f64>>), NoMeasurements> {
-    let width = raw.first().map_or(0, Vec::len);
-    let model: Vec<Rotation<f64>> = hands(problem, joints).iter().map(|x| x.rotation).collect();
-    let mut random = Random(5);
-    let n = raw.len();
-    let mut any = || ((random.unit() * n as f64) as usize).min(n - 1);
-    let pairs: Vec<(usize, usize)> = (0..120).map(|_| (any(), any())).collect();
-    let units: &[bool] = match said {
-        Some(Said::Degrees) => &[true],
-        Some(Said::Radians) => &[false],
-        _ => &[false, true],
-    };
-    let mut best: Option<(f64, Format, Vec<Rotation<f64>>)> = None;
-    for form in Form::all().into_iter().filter(|f| f.width() == width) {
-        for &degrees in if width == 3 { units } else { &[false] } {
-            let format = Format { form, degrees };
-            let Some(turns) = raw.iter().map(|x| format.read(x)).collect::<Option<Vec<_>>>() else {
-                continue;
-            };
-            let off = |&(s, t): &(usize, usize)| {
-                (between(&turns[s], &turns[t]) - between(&model[s], &model[t])).abs().min(0.5)
-            };
-            let score = pairs.iter().map(off).sum::<f64>() / pairs.len() as f64;
-            if best.as_ref().is_none_or(|b| score < b.0) {
-                best = Some((score, format, turns));
-            }
-        }
-    }
-    match best {
-        None => Err(NoMeasurements::NoOrientation),
-        Some((score, ..)) if score > FAR[1] => Err(NoMeasurements::Far(score, true, None)),
-        Some((_, format, turns)) => Ok((format, turns)),
-    }
-}
-
-/// How base and tool are turned, in closed form; not at all where that is as good.
-fn turned_frames(
-    problem: &Problem,
-    joints: &[Vec<f64>],
-    readings: &[Reading],
-) -> Result<(Transform<f64>, Transform<f64>), NoMeasurements> {
-    let model = hands(problem, joints);
-    let recorded: Vec<_> = readings.iter().zip(&model).map(|(r, m)| (r.turn, m.translation)).collect();
-    let n = model.len();
-    let mut random = Random(6);
-    let mut any = || ((random.unit() * n as f64) as usize).min(n - 1);
-    let pairs: Vec<(usize, usize)> = (0..100).map(|_| (any(), any())).filter(|p| p.0 != p.1).collect();
-    let left = |base: &Rotation<f64>, tool: &Rotation<f64>| {
-        let squares: f64 = model
-            .iter()
-            .zip(readings)
-            .map(|(m, r)| between(&(*base * m.rotation * *tool), &r.turn).powi(2))
-            .sum();
-        (squares / n as f64).sqrt()
-    };
-    let none = Rotation::identity();
-    let as_said = left(&none, &none);
-    let found = frames::closed(&model, &recorded, &pairs)
-        .into_iter()
-        .map(|f| (f.base.rotation, f.tool.rotation))
-        .map(|(b, t)| (left(&b, &t), b, t))
-        .min_by(|a, b| a.0.total_cmp(&b.0));
-    let turn = |r: Rotation<f64>| Transform::from_rotation_translation(r, Vector::zero());
-    match found {
-        Some((best, b, t)) if best < 0.5 * as_said && as_said > OTHER_BASE[1] => {
-            if best > FAR[1] {
-                return Err(NoMeasurements::Far(best, true, None));
-            }
-            Ok((turn(b), turn(t)))
-        }
-        _ if as_said > FAR[1] => Err(NoMeasurements::Far(as_said, true, None)),
-        _ => Ok((Transform::identity(), Transform::identity())),
-    }
-}
-
-/// Planes or centres through the points of the model.
-fn fixtures(
-    problem: &Problem,
-    joints: &[Vec<f64>],
-    readings: &[Reading],
-    count: usize,
-    length: Option<f64>,
-) -> Result<Vec<Fixture>, NoMeasurements> {
-    let points: Vec<Vector<f64>> = hands(problem, joints).iter().map(|x| x.translation).collect();
-    let mut all = vec![];
-    for group in 0..count {
-        let own: Vec<usize> = (0..points.len()).filter(|&r| readings[r].group == group).collect();
-        let fixture = match problem.measurement {
-            Measurement::Plane => plane(&own.iter().map(|&r| points[r]).collect::<Vec<_>>()),
-            Measurement::Distance(bar) => {
-                let rows: Vec<(Vector<f64>, f64)> =
-                    own.iter().map(|&r| (points[r], readings[r].distance)).collect();
-                centre(bar, &rows, length)
-            }
-            _ => continue,
-        };
-        let squares: f64 = own
-            .iter()
-            .map(|&r| (readings[r].distance - fixture.reading(problem.measurement, points[r])).powi(2))
-            .sum();
-        let left = (squares / own.len().max(1) as f64).sqrt();
-        if left.is_nan() || left > FAR[0] {
-            return Err(NoMeasurements::Far(left, false, None));
-        }
-        all.push(fixture);
-    }
-    Ok(all)
-}
-
-/// The plane nearest to points: its normal is the direction in which they are spread least.
-fn plane(points: &[Vector<f64>]) -> Fixture {
-    let at = mean(points);
-    let mut spread = vec![vec![0.0; 3]; 3];
-    for p in points {
-        let d = *p - at;
-        for (i, row) in spread.iter_mut().enumerate() {
-            row.iter_mut().enumerate().for_each(|(j, x)| *x += d[i] * d[j]);
-        }
-    }
-    let (values, vectors) = symmetric(spread);
-    let least = (0..3).min_by(|&i, &j| values[i].total_cmp(&values[j])).unwrap_or(2);
-    let v = &vectors[least];
-    Fixture { frame: frame_along(Vector([v[0], v[1], v[2]]), at), length: 0.0 }
-}
-
-/// The centre of distances: |p|² − d² = 2 p·c + 2 d ℓ + (ℓ² − |c|²) is linear in c, ℓ and the constant.
-fn centre(bar: Bar, rows: &[(Vector<f64>, f64)], length: Option<f64>) -> Fixture {
-    let known = length.unwrap_or(0.0);
-    let is_offset = bar == Bar::Offset;
-    // The mean is taken away first: the numbers stay small.
-    let at = mean(&rows.iter().map(|r| r.0).collect::<Vec<_>>());
-    let n = if is_offset { 5 } else { 4 };
-    let (mut a, mut b) = (vec![0.0; n * n], vec![0.0; n]);
-    for (p, d) in rows {
-        let p = *p - at;
-        let d = if bar == Bar::Fixed { known } else { *d };
-        let row = [2.0 * p[0], 2.0 * p[1], 2.0 * p[2], 1.0, 2.0 * d];
-        let y = p.dot(p) - d * d;
-        for i in 0..n {
-            b[i] += row[i] * y;
-            (0..n).for_each(|j| a[i * n + j] += row[i] * row[j]);
-        }
-    }
-    (0..n).for_each(|i| a[i * n + i] += 1e-12);
-    let x = solve(a, b);
-    let c = Vector([x[0], x[1], x[2]]);
-    let length = match bar {
-        Bar::Measured => 0.0,
-        Bar::Offset => x[4],
-        Bar::Fixed => known,
-        // The constant is ℓ² − |c|².
-        Bar::FixedUnknown => (x[3] + c.dot(c)).max(0.0).sqrt(),
-    };
-    Fixture { frame: Transform::from_rotation_translation(Rotation::identity(), c + at), length }
 }

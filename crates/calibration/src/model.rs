@@ -232,13 +232,12 @@ impl Problem {
             if all.len() == count {
                 break;
             }
-            let limits = self.arm.limits.iter().enumerate();
             let q: Vec<f64> = if is_on_surface && !starts.is_empty() {
                 let start = starts[k % starts.len()];
                 let by = |j: usize| if self.arm.turns[j] { 0.6 } else { 0.2 };
-                limits.map(|(j, _)| start[j] + by(j) * (random.unit() - 0.5)).collect()
+                (0..start.len()).map(|j| start[j] + by(j) * (random.unit() - 0.5)).collect()
             } else {
-                limits.map(|(_, [low, high])| low + (high - low) * random.unit()).collect()
+                self.arm.limits.iter().map(|[low, high]| low + (high - low) * random.unit()).collect()
             };
             if is_on_surface {
                 all.extend(self.on_surface(fixture, q));

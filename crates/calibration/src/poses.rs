@@ -113,9 +113,7 @@ fn best(rows: &[Vec<Vec<f64>>], covariance: &[Vec<f64>], taken: &[usize]) -> Opt
         let mut a: Vec<Vec<f64>> =
             candidate.iter().map(|row| through.iter().map(|t| dot(row, t)).collect()).collect();
         let mut sum = 0.0;
-        for k in 0..a.len() {
-            a[k][k] += 1.0;
-        }
+        a.iter_mut().enumerate().for_each(|(k, row)| row[k] += 1.0);
         for k in 0..a.len() {
             sum += a[k][k].max(1e-300).ln();
             for i in k + 1..a.len() {

@@ -212,27 +212,27 @@ impl<'a> Rows<'a> {
                 (false, 0) => false,
                 (false, _) => table.rows[k - 1].cells[4] != 0.0,
             };
-            let theta = number(theta) - if after_beta { Expr::pi() / Expr::int(2) } else { Expr::int(0) };
+            let theta = angle(theta) - if after_beta { Expr::pi() / Expr::int(2) } else { Expr::int(0) };
             let (theta, length) =
                 if turns { (motion + theta, number(length)) } else { (theta, motion + number(length)) };
             let mut row = Row { theta, d: length, gamma: Expr::int(0), b: Expr::int(0), ..old.clone() };
             let quarter = Expr::pi() / Expr::int(2);
             let still = |a: f64, alpha: f64| Row {
                 a: number(a),
-                alpha: number(alpha),
+                alpha: angle(alpha),
                 theta: quarter,
                 ..Row::still()
             };
             match (self.is_x_first(), has_beta) {
                 (true, true) => {
                     rows.push(still(a, alpha));
-                    (row.a, row.alpha) = (Expr::int(0), number(beta));
+                    (row.a, row.alpha) = (Expr::int(0), angle(beta));
                 }
-                _ => (row.a, row.alpha) = (number(a), number(alpha)),
+                _ => (row.a, row.alpha) = (number(a), angle(alpha)),
             }
             rows.push(row);
             if !self.is_x_first() && has_beta && k + 1 < n {
-                rows.push(Row { alpha: number(beta), theta: quarter, ..Row::still() });
+                rows.push(Row { alpha: angle(beta), theta: quarter, ..Row::still() });
             }
         }
         let kept = Description {
@@ -249,16 +249,10 @@ impl<'a> Rows<'a> {
             if *frame != Transform::identity() {
                 let [x, y, z] = frame.translation.0;
                 let [roll, pitch, yaw] = rpy(&frame.rotation);
-                let _ = write!(
-                    frames,
-                    "\n[{name}]\nxyz = [{}, {}, {}]\nrpy = [{}, {}, {}]\n",
-                    shown(x),
-                    shown(y),
-                    shown(z),
-                    shown(roll),
-                    shown(pitch),
-                    shown(yaw)
-                );
+                let xyz = [x, y, z].map(shown).join(", ");
+                let turned =
+                    [roll, pitch, yaw].map(|x| format!("\"{} deg\"", shown(x.to_degrees()))).join(", ");
+                let _ = write!(frames, "\n[{name}]\nxyz = [{xyz}]\nrpy = [{turned}]\n");
             }
         }
         // Named poses stand behind.
@@ -305,7 +299,7 @@ fn used(d: &Description) -> Vec<Parameter> {
     let of_row = |r: &Row| {
         let limits = r.limits.iter().flatten().copied();
         let rates = r.velocity.into_iter().chain(r.acceleration);
-        let masses = r.mass_cells().into_iter().map(|c| c.1);
+        let masses = r.mass_cells().map(|c| c.1);
         limits.chain(rates).chain(masses).collect::<Vec<Expr>>()
     };
     let others = d.poses.iter().flat_map(|p| p.1.iter().copied()).chain(d.gravity.iter().flatten().copied());
@@ -410,6 +404,11 @@ pub fn rpy(r: &Rotation<f64>) -> [f64; 3] {
 fn number(x: f64) -> Expr {
     let text = shown(x);
     Rational::from_decimal(&text).map_or_else(|| Expr::int(0), Expr::from)
+}
+
+/// An angle exactly, by the shortest text of its degrees.
+fn angle(x: f64) -> Expr {
+    number(x.to_degrees()) * Expr::pi() / Expr::int(180)
 }
 
 /// The shortest decimal of a number, without exponent.

@@ -5,7 +5,7 @@ use crate::estimate::{Calibrated, Off};
 use crate::measurement::{Bar, Measurement};
 use crate::model::{Parameter, Problem};
 use crate::poses::Chosen;
-use crate::table::{CELLS, Rows, Table};
+use crate::table::{CELLS, Cell, Rows, Table};
 use crate::visible::{Cause, Visible, formula};
 use denavit::description::{Convention, Description};
 use denavit::geometry::Axis;
@@ -111,8 +111,12 @@ pub fn seen_lines(
     }
     if seen.lacking > 0 {
         lines.push(format!(
-            "  {} of what is seen in no cell: tilts between axes that are parallel, for which a fixed row is added",
-            if seen.lacking == 1 { "one number is".into() } else { format!("{} numbers are", seen.lacking) }
+            "  {} in no cell: tilts between axes that are parallel, for which a fixed row is added",
+            if seen.lacking == 1 {
+                "one number stands".into()
+            } else {
+                format!("{} numbers stand", seen.lacking)
+            }
         ));
     }
     lines.push("  a minimal set:".into());
@@ -211,10 +215,10 @@ pub fn tied(tied: &Tied, description: &Description) -> String {
                 .iter()
                 .filter_map(|c| if let Place::Row(r, _) = c.0 { Some((r + 1).to_string()) } else { None })
                 .collect();
-            format!(
-                "{a} and {b}: the axes of rows {} are parallel, only the {what} is seen",
-                rows.join(" and ")
-            )
+            let is_along_x = tied.cells.iter().all(|c| matches!(c.0, Place::Row(_, Cell::A | Cell::Alpha)));
+            let axes = if is_along_x { "x axes" } else { "axes" };
+            let rows = rows.join(" and ");
+            format!("{a} and {b}: the {axes} of rows {rows} are parallel, only the {what} is seen")
         }
         (cells, [.., _]) if cells.iter().any(is_frame) => {
             let own: Vec<&String> =
@@ -307,18 +311,30 @@ pub fn found_lines(problem: &Problem, visible: &Visible, found: &Calibrated, han
         lines.push(format!("  {text}"));
     }
     lines.push("  errors, one deviation each:".into());
-    let last = problem.last();
+    lines.extend(errors(found, problem.last()));
+    lines
+}
+
+/// The errors, an axis a line.
+fn errors(found: &Calibrated, last: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    let mut current = None;
     for e in &found.estimates {
         let name = parameter(e.parameter, last);
+        let (of, what) = name.split_once(": ").unwrap_or(("", &name));
         let text = match (e.value, e.parameter) {
             (None, _) => "not seen by itself".into(),
             (Some([x, s]), Parameter::Turn(..)) => {
                 format!("{:+.4}° ± {:.4}°", x.to_degrees(), s.to_degrees())
             }
             (Some([x, s]), Parameter::Gain(_)) => format!("{:+.4} % ± {:.4} %", 100.0 * x, 100.0 * s),
-            (Some([x, s]), _) => format!("{:+.4} mm ± {:.4} mm", 1e3 * x, 1e3 * s),
+            (Some([x, s]), _) => format!("{:+.3} mm ± {:.3} mm", 1e3 * x, 1e3 * s),
         };
-        lines.push(format!("    {name}: {text}"));
+        match lines.last_mut() {
+            Some(line) if current.as_deref() == Some(of) => *line += &format!(", {what} {text}"),
+            _ => lines.push(format!("    {of}: {what} {text}")),
+        }
+        current = Some(of.to_string());
     }
     lines
 }
@@ -333,12 +349,15 @@ pub fn table_lines(rows: &Rows, table: &Table, convention: Convention) -> Vec<St
         let parts: Vec<String> = CELLS
             .iter()
             .enumerate()
-            .filter(|(c, _)| own.cells[*c] != 0.0 || old.cells[*c] != 0.0)
+            .filter(|(c, cell)| shown(cell.is_angle(), own.cells[*c]).abs() > 5e-5 || old.cells[*c] != 0.0)
             .map(|(c, cell)| {
                 let (now, was) = (shown(cell.is_angle(), own.cells[c]), shown(cell.is_angle(), old.cells[c]));
                 let by = now - was;
-                let change = if by == 0.0 { String::new() } else { format!(" ({by:+.4})") };
-                format!("{} {now:.4}{change}", cell.name(convention))
+                // Not −0.0000.
+                let rounded = |x: f64| (1e4 * x).round() / 1e4 + 0.0;
+                let change =
+                    if rounded(by) == 0.0 { String::new() } else { format!(" ({:+.4})", rounded(by)) };
+                format!("{} {:.4}{change}", cell.name(convention), rounded(now))
             })
             .collect();
         lines.push(format!("    row {}: {}", rows.row_of(k) + 1, parts.join(", ")));

@@ -185,7 +185,7 @@ impl<'a> Work<'a> {
         let mut ratio = 1.0;
         for round in 0..ROUNDS {
             let split = Split::new(&self.information(&state, &noise, rows, &weights));
-            (state, weights) = self.solved(rows, &noise, &split, round == 0)?;
+            (state, weights) = self.solved(rows, &noise, &split)?;
             let (next, now) = self.spread(&state, rows, &weights, &noise, &split);
             ratio = now;
             let Some(next) = next.filter(|_| known.is_none()) else {
@@ -210,7 +210,6 @@ impl<'a> Work<'a> {
         rows: &[usize],
         noise: &[f64; 2],
         split: &Split,
-        is_first: bool,
     ) -> Result<(State, Vec<f64>), CalibrateError> {
         let n = self.prior.len();
         let mut state = self.problem.nominal();
@@ -218,8 +217,7 @@ impl<'a> Work<'a> {
         let mut weights = vec![1.0; rows.len()];
         for step in 0..STEPS {
             let residuals = self.residuals(&state, rows);
-            let early = is_first && step == 0 || step == 0;
-            (weights, _) = self.weights(&residuals, noise, early, seen.len());
+            (weights, _) = self.weights(&residuals, noise, step == 0, seen.len());
             let constants = self.problem.constants_at(&state);
             let (mut a, mut b) = (vec![vec![0.0; n]; n], vec![0.0; n]);
             for ((&r, residual), &w) in rows.iter().zip(&residuals).zip(&weights) {

@@ -100,8 +100,14 @@ fn orientations() {
     let mut dice = Dice::new(22);
     let arm = arm("ur5");
     let constants = real(&arm, &mut dice);
-    let base = exp(Vector([0.5, 0.2, -1.0]));
-    for (form, width) in [(Form::RotationVector, 3), (Form::QuaternionWxyz, 4), (Form::Euler(3, true), 3)] {
+    let other = exp(Vector([0.5, 0.2, -1.0]));
+    // Which axes angles are about is not told apart from a base that is turned.
+    for (form, width, base) in [
+        (Form::RotationVector, 3, other),
+        (Form::QuaternionWxyz, 4, other),
+        (Form::QuaternionXyzw, 4, other),
+        (Form::Euler(3, true), 3, exp(Vector([0.0; 3]))),
+    ] {
         let format = Format { form, degrees: form != Form::RotationVector && width == 3 };
         let mut rows = vec![];
         for _ in 0..60 {

@@ -1,7 +1,8 @@
 //! `denavit calibrate`: the geometry of an arm out of measurements.
 
 use crate::arguments::{CalibrateArguments, MeasureName};
-use crate::commands::check::recording::{bytes_of, column, table_of, write_whole};
+use crate::commands::check::lerobot;
+use crate::commands::check::recording::{bytes_of, column, write_whole};
 use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::note;
@@ -231,8 +232,15 @@ fn measured(
 ) -> Result<(), Failure> {
     let name = file.to_string_lossy().into_owned();
     let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
-    let Some(table) = table_of(file)? else {
-        return Err(failed(&"this is no recording: rows of numbers, in .csv, .jsonl, .npz or .parquet, are"));
+    let table = if lerobot::is_one(file) {
+        lerobot::table(file)?
+    } else {
+        let Some(kind) = Kind::of(&name) else {
+            return Err(failed(
+                &"what is this?\n  = hint: measurements stand in .csv, .tsv, .jsonl, .npy, .npz or .parquet",
+            ));
+        };
+        denavit_tables::read(&bytes_of(&name)?, kind).map_err(|e| failed(&e))?
     };
     for remark in &table.remarks {
         note(&format!("note: {name}: {remark}"));

@@ -48,9 +48,9 @@ pub fn singularities_document(
     blocks.push(Block::Heading(2, Line::new(words.determinant_title())));
     blocks.extend(determinants(found, &Factor::named("J"), words));
     blocks.push(Block::Heading(2, Line::new(words.singularities_title())));
-    blocks.extend(places(found, words));
+    blocks.extend(places(description, found, words));
     if let Some(point) = found.of_its_point(description) {
-        blocks.extend(point_document(&point, words));
+        blocks.extend(point_document(description, &point, words));
     }
     blocks.extend(rates(found, words));
     blocks
@@ -87,7 +87,7 @@ fn of_point() -> Factor {
 
 /// The linear rows, their determinant, and where they are singular: that of the point at the body's origin, its orientation
 /// left aside.
-fn point_document(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+fn point_document(description: &Description, found: &Singularities, words: &dyn Wording) -> Vec<Block> {
     let view = &found.jacobian.view;
     let mut blocks = vec![
         Block::Heading(2, Line::new(words.point_title())),
@@ -101,19 +101,20 @@ fn point_document(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
         });
     }
     blocks.extend(determinants(found, &of_point(), words));
-    blocks.extend(places(found, words));
+    blocks.extend(places(description, found, words));
     blocks
 }
 
 /// The singularities, each under a heading of its own.
-fn places(found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+fn places(description: &Description, found: &Singularities, words: &dyn Wording) -> Vec<Block> {
+    let assumes = description.parameters.iter().any(|p| p.value.is_none());
     let mut blocks = vec![];
     if found.common.is_empty() {
         blocks.push(paragraph(words.no_singularity(found.is_complete, found.minors.len() > 1)));
     }
     for (k, s) in found.common.iter().enumerate() {
         blocks.push(Block::Heading(3, Line::new(format!("{}. ", k + 1)).math(vanishing(s.factor))));
-        blocks.push(Block::List(remarks(&found.jacobian.view, s, words)));
+        blocks.push(Block::List(remarks(&found.jacobian.view, s, assumes, words)));
     }
     match &found.others {
         Some(sets) if !sets.is_empty() => {
@@ -249,7 +250,7 @@ fn determinants(found: &Singularities, matrix: &Factor, words: &dyn Wording) -> 
     }
     let has_surplus = found.minors.first().is_some_and(of_joints);
     let why = match found.deficient {
-        Some(rank) => words.always_singular(rank),
+        Some(rank) => words.always_singular(rank, found.jacobian.algorithm.outputs().len() / ROWS.len() > rank),
         None => words.several_determinants(has_surplus, found.rows.len()),
     };
     let mut blocks = vec![paragraph(why)];
@@ -261,14 +262,14 @@ fn determinants(found: &Singularities, matrix: &Factor, words: &dyn Wording) -> 
 }
 
 /// Where, why, what is lost, what comes free.
-fn remarks(view: &Viewpoint<Expr>, s: &Singularity, words: &dyn Wording) -> Vec<Line> {
+fn remarks(view: &Viewpoint<Expr>, s: &Singularity, assumes: bool, words: &dyn Wording) -> Vec<Line> {
     let mut lines = vec![];
     if let Some(zero) = s.zeros.first() {
         let (unknown, values) = zero.solved();
         lines.push(words.zeros(values.into_iter().map(|x| Math::equation(unknown, x)).collect()));
     }
     let Some(example) = &s.example else {
-        lines.push(Line::new(words.no_example()));
+        lines.push(Line::new(words.no_example(assumes)));
         return lines;
     };
     lines.extend(happens(view, example, words));

@@ -31,15 +31,23 @@ fn derivation(s: &Setting) -> Section {
         Err(Refusal::Stuck(stuck)) => Some(Explanation::of_stuck(&s.description, stuck, Goal::Pose)),
         Err(Refusal::Given(_) | Refusal::Unsuitable(_)) => None,
     };
-    let names = explained.as_ref().map_or_else(|| s.description.vocabulary(), Explanation::names);
+    // Of arms for positions that problem follows, which most books mean.
+    let position = s.inverse().as_ref().ok().and_then(Explanation::of_its_position);
+    let names = match (&explained, &position) {
+        (Some(e), Some(p)) => e.names_with(p),
+        (Some(e), None) => e.names(),
+        (None, _) => s.description.vocabulary(),
+    };
     let mut section = Section::new(names);
     section.heading(2, Line::new(s.words().heading(Heading::Inverse)));
     match (explained, s.inverse()) {
         (Some(e), _) => {
             let language = s.options.language;
-            let blocks = match s.options.level {
-                Level::Full => e.document(language),
-                Level::Short => e.summary(language),
+            let blocks = match (s.options.level, &position) {
+                (Level::Full, None) => e.document(language),
+                (Level::Full, Some(p)) => e.document_with(p, language),
+                (Level::Short, None) => e.summary(language),
+                (Level::Short, Some(p)) => e.summary_with(p, language),
             };
             lowered(blocks, s.words(), &mut section);
         }

@@ -1,10 +1,11 @@
 //! The robot at a glance.
 
 use super::setting::{Setting, Topic};
+use crate::explain::Explanation;
 use crate::document::{Line, Math, Part, Section};
 use crate::words::{Factors, Glance};
 use denavit::inverse::Refusal;
-use denavit::velocity::{Obstacle, Singularity};
+use denavit::velocity::{Obstacle, Singularities, Singularity};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 
@@ -48,7 +49,14 @@ fn inverse(s: &Setting) -> Line {
     Line::new(match s.inverse() {
         Ok(model) => {
             let given = model.given.iter().map(|&j| variables[j].symbol.name().to_string());
-            s.words().closed_form(model.max_solutions(), &given.collect::<Vec<_>>())
+            let pose = s.words().closed_form(model.max_solutions(), &given.collect::<Vec<_>>());
+            let position = Explanation::of_its_position(model).and_then(|e| e.solutions);
+            match position {
+                Some(count) => {
+                    s.words().and_of_the_position(&pose, &s.words().closed_form(count, &[]))
+                }
+                None => pose,
+            }
         }
         Err(why) => {
             let is_square = matches!(why, Refusal::Stuck(stuck) if stuck.surplus == 0);
@@ -58,8 +66,22 @@ fn inverse(s: &Setting) -> Line {
 }
 
 fn singularities(s: &Setting) -> Line {
+    let line = factors(s, s.singular().as_ref());
+    let point = s.singular().as_ref().ok().and_then(|found| found.of_its_point(&s.description));
+    match &point {
+        Some(point) => {
+            let words = s.words().and_of_the_position("", "");
+            let mut line = line.text(words);
+            line.0.extend(factors(s, Ok(point)).0);
+            line
+        }
+        None => line,
+    }
+}
+
+fn factors(s: &Setting, found: Result<&Singularities, &Obstacle>) -> Line {
     let is_long = |e: Expr| print(e, &s.description.vocabulary(), Style::Latex).len() >= LONG;
-    s.words().factors(match s.singular() {
+    s.words().factors(match found {
         Ok(found) if found.deficient.is_some() => Factors::Everywhere,
         Ok(found) if found.common.is_empty() && found.is_complete => Factors::None,
         Ok(found) if found.common.is_empty() => Factors::NotShared,

@@ -158,6 +158,9 @@ pub trait Report {
     /// The title.
     fn title(&self, robot: &str) -> String;
 
+    /// What is said of the pose, and the same of the position alone behind it.
+    fn and_of_the_position(&self, pose: &str, position: &str) -> String;
+
     /// The title of a document about several robots.
     fn compared(&self, robots: &[&str]) -> String;
 

@@ -65,7 +65,7 @@ pub trait Velocity {
     fn minor_of_joints(&self, joints: &[usize]) -> String;
 
     /// That the rank is never more than this, and what the determinants are that follow.
-    fn always_singular(&self, rank: usize) -> String;
+    fn always_singular(&self, rank: usize, is_redundant: bool) -> String;
 
     /// Before the determinant of some rows and joints (from 0).
     fn minor_of_both(&self, rows: &[&str], joints: &[usize]) -> String;
@@ -94,8 +94,8 @@ pub trait Velocity {
     /// Where a factor is 0.
     fn zeros(&self, all: Vec<Math>) -> Line;
 
-    /// That a factor is never 0 alone.
-    fn no_example(&self) -> String;
+    /// That a factor was found 0 alone nowhere; with lengths that are assumed where the arm has none.
+    fn no_example(&self, assumes: bool) -> String;
 
     /// How the axes lie at a singular configuration.
     fn place(&self, place: &Place) -> String;

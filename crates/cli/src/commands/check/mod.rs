@@ -3,7 +3,7 @@
 mod class;
 mod class_page;
 mod html;
-mod lerobot;
+pub mod lerobot;
 mod markdown;
 mod marked;
 pub mod recording;

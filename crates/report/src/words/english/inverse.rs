@@ -192,7 +192,7 @@ impl Inverse for English {
                  another equation gives it; else no solution"
             }
             Consequence::OpenAngle => {
-                "the equation leaves the angle open: it is free (the arm can move with its hand still), or another \
+                "the equation leaves the angle open: it is free (the arm can move without leaving the target), or another \
                  equation gives it"
             }
             Consequence::OpenUnless => {

@@ -17,6 +17,10 @@ impl Report for English {
         format!("Kinematics of the {robot}")
     }
 
+    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
+        format!("{pose} The position alone: {position}")
+    }
+
     fn compared(&self, robots: &[&str]) -> String {
         format!("{} compared", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }

@@ -62,10 +62,10 @@ impl Velocity for English {
         format!("Joints {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize) -> String {
+    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
+        let free = if is_redundant { ", and some joints can move while it stands still" } else { "" };
         format!(
-            "The rank is {rank} at the most: in every configuration the hand lacks a direction, and some joints can move while it \
-             stands still. The rank is less still where the determinants with all choices of {rank} rows and {rank} joints are 0. \
+            "The rank is {rank} at the most: in every configuration the hand lacks a direction{free}. The rank is less still where the determinants with all choices of {rank} rows and {rank} joints are 0. \
              Those that are 0 everywhere are left out."
         )
     }
@@ -119,8 +119,12 @@ impl Velocity for English {
         line
     }
 
-    fn no_example(&self) -> String {
-        "no configuration was found where this factor alone is 0".into()
+    fn no_example(&self, assumes: bool) -> String {
+        match assumes {
+            true => "with the lengths that are assumed here no configuration was found where this factor alone is 0",
+            false => "no configuration was found where this factor alone is 0",
+        }
+        .into()
     }
 
     fn place(&self, place: &Place) -> String {
@@ -155,7 +159,7 @@ impl Velocity for English {
                 [j] => format!("joint {} does not move the {}", j + 1, still_thing(*still)),
                 joints => {
                     let (joints, thing) = (numbers(joints), still_thing(*still));
-                    format!("joints {joints} can move together while the {thing} stands still")
+                    format!("joints {joints} have velocities together at which the {thing} is at rest")
                 }
             },
             Place::Differs => "how the axes lie differs from place to place".into(),

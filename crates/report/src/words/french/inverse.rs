@@ -197,8 +197,8 @@ impl Inverse for French {
                  ou donné par une autre équation ; sinon, aucune solution"
             }
             Consequence::OpenAngle => {
-                "l'équation laisse l'angle indéterminé : il est libre (le bras peut bouger sans que l'organe terminal se \
-                 déplace) ou donné par une autre équation"
+                "l'équation laisse l'angle indéterminé : il est libre (le bras peut bouger sans quitter la \
+                 cible) ou donné par une autre équation"
             }
             Consequence::OpenUnless => {
                 "aucune solution, sauf si le second membre s'annule aussi : l'équation laisse alors l'articulation \

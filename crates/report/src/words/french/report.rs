@@ -17,6 +17,10 @@ impl Report for French {
         say!("Modélisation géométrique et cinématique : {robot}")
     }
 
+    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
+        say!("{pose} La position seule : {position}")
+    }
+
     fn compared(&self, robots: &[&str]) -> String {
         say!("Comparaison : {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }

@@ -66,10 +66,10 @@ impl Velocity for French {
         say!("Articulations {} :", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize) -> String {
+    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
+        let free = if is_redundant { ", et des articulations peuvent bouger sans qu'il bouge" } else { "" };
         say!(
-            "Le rang vaut au plus {rank} : dans toutes les configurations, il manque une direction à l'organe terminal, et des \
-             articulations peuvent bouger sans qu'il bouge. Le rang est encore plus petit là où les déterminants de tous les choix \
+            "Le rang vaut au plus {rank} : dans toutes les configurations, il manque une direction à l'organe terminal{free}. Le rang est encore plus petit là où les déterminants de tous les choix \
              de {rank} lignes et {rank} articulations sont nuls. Ceux qui sont nuls partout ne sont pas écrits."
         )
     }
@@ -125,8 +125,11 @@ impl Velocity for French {
         line
     }
 
-    fn no_example(&self) -> String {
-        say!("aucune configuration n'a été trouvée où ce facteur s'annule seul")
+    fn no_example(&self, assumes: bool) -> String {
+        match assumes {
+            true => say!("aucune configuration n'a été trouvée où ce facteur s'annule seul, avec les longueurs supposées ici"),
+            false => say!("aucune configuration n'a été trouvée où ce facteur s'annule seul"),
+        }
     }
 
     fn place(&self, place: &Place) -> String {
@@ -167,7 +170,7 @@ impl Velocity for French {
             Place::SelfMotion { joints, still } => match &joints[..] {
                 [j] => say!("l'articulation {} ne fait pas bouger {}", j + 1, still_thing(*still)),
                 joints => format!(
-                    "les articulations {} peuvent se mouvoir ensemble, {} restant immobile",
+                    "les articulations {} ont ensemble des vitesses pour lesquelles {} est au repos",
                     numbers(joints),
                     still_thing(*still)
                 ),

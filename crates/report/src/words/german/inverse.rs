@@ -205,7 +205,7 @@ impl Inverse for German {
                  anderen Gleichung; sonst keine Lösung"
             }
             Consequence::OpenAngle => {
-                "die Gleichung lässt den Winkel offen: Er ist frei (der Arm kann sich bei ruhendem Endeffektor bewegen) oder folgt aus \
+                "die Gleichung lässt den Winkel offen: Er ist frei (der Arm kann sich bewegen, ohne das Ziel zu verlassen) oder folgt aus \
                  einer anderen Gleichung"
             }
             Consequence::OpenUnless => {

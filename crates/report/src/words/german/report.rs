@@ -17,6 +17,10 @@ impl Report for German {
         format!("Kinematik: {robot}")
     }
 
+    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
+        format!("{pose} Die Position allein: {position}")
+    }
+
     fn compared(&self, robots: &[&str]) -> String {
         format!("{} im Vergleich", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }

@@ -68,10 +68,10 @@ impl Velocity for German {
         format!("Gelenke {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize) -> String {
+    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
+        let free = if is_redundant { ", und Gelenke können sich bewegen, während er ruht" } else { "" };
         format!(
-            "Der Rang ist höchstens {rank}: In jeder Stellung fehlt dem Endeffektor eine Richtung, und Gelenke können sich bewegen, \
-             während er ruht. Noch kleiner ist der Rang, wo die Determinanten zu jeder Auswahl von {rank} Zeilen und {rank} Gelenken \
+            "Der Rang ist höchstens {rank}: In jeder Stellung fehlt dem Endeffektor eine Richtung{free}. Noch kleiner ist der Rang, wo die Determinanten zu jeder Auswahl von {rank} Zeilen und {rank} Gelenken \
              0 sind. Solche, die überall 0 sind, werden nicht aufgeführt."
         )
     }
@@ -125,8 +125,12 @@ impl Velocity for German {
         line
     }
 
-    fn no_example(&self) -> String {
-        "es wurde keine Stellung gefunden, in der nur dieser Faktor 0 ist".into()
+    fn no_example(&self, assumes: bool) -> String {
+        match assumes {
+            true => "mit den hier angenommenen Längen wurde keine Stellung gefunden, in der nur dieser Faktor 0 ist",
+            false => "es wurde keine Stellung gefunden, in der nur dieser Faktor 0 ist",
+        }
+        .into()
     }
 
     fn place(&self, place: &Place) -> String {
@@ -168,7 +172,7 @@ impl Velocity for German {
             Place::SelfMotion { joints, still } => match &joints[..] {
                 [j] => format!("Gelenk {} bewegt {} nicht", j + 1, still_thing(*still, true)),
                 joints => format!(
-                    "die Gelenke {} können sich gemeinsam bewegen, während {} ruht",
+                    "die Gelenke {} haben gemeinsam Geschwindigkeiten, bei denen {} ruht",
                     numbers(joints),
                     still_thing(*still, false)
                 ),

@@ -193,7 +193,7 @@ impl Inverse for Spanish {
                  no hay solución"
             }
             Consequence::OpenAngle => {
-                "la ecuación deja indeterminado el ángulo: es libre (el brazo puede moverse con el efector final quieto) o lo da otra \
+                "la ecuación deja indeterminado el ángulo: es libre (el brazo puede moverse sin dejar el objetivo) o lo da otra \
                  ecuación"
             }
             Consequence::OpenUnless => {

@@ -17,6 +17,10 @@ impl Report for Spanish {
         format!("Cinemática: {robot}")
     }
 
+    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
+        format!("{pose} La posición sola: {position}")
+    }
+
     fn compared(&self, robots: &[&str]) -> String {
         format!("Comparación: {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }

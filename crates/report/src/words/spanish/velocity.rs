@@ -67,10 +67,10 @@ impl Velocity for Spanish {
         format!("Articulaciones {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize) -> String {
+    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
+        let free = if is_redundant { ", y hay articulaciones que pueden moverse mientras él está quieto" } else { "" };
         format!(
-            "El rango es como mucho {rank}: en todas las configuraciones le falta una dirección al efector final, y hay articulaciones que \
-             pueden moverse mientras él está quieto. El rango es aún menor donde son nulos los determinantes de todas las elecciones de \
+            "El rango es como mucho {rank}: en todas las configuraciones le falta una dirección al efector final{free}. El rango es aún menor donde son nulos los determinantes de todas las elecciones de \
              {rank} filas y {rank} articulaciones. Se omiten los que son nulos en todas partes."
         )
     }
@@ -125,8 +125,12 @@ impl Velocity for Spanish {
         line
     }
 
-    fn no_example(&self) -> String {
-        "no se ha encontrado ninguna configuración en la que se anule solo este factor".into()
+    fn no_example(&self, assumes: bool) -> String {
+        match assumes {
+            true => "con las longitudes supuestas aquí no se ha encontrado ninguna configuración en la que se anule solo este factor",
+            false => "no se ha encontrado ninguna configuración en la que se anule solo este factor",
+        }
+        .into()
     }
 
     fn place(&self, place: &Place) -> String {
@@ -168,7 +172,7 @@ impl Velocity for Spanish {
             Place::SelfMotion { joints, still } => match &joints[..] {
                 [j] => format!("la articulación {} no mueve {}", j + 1, still_thing(*still)),
                 joints => format!(
-                    "las articulaciones {} pueden moverse juntas mientras {} está quieto",
+                    "las articulaciones {} tienen juntas velocidades con las que {} está en reposo",
                     numbers(joints),
                     still_thing(*still)
                 ),
