@@ -3,7 +3,7 @@
 use crate::MapError;
 use crate::columns::{Fault, Input, Read, Wanted, names_of};
 use crate::inverse::Solver;
-use crate::mapping::{Compiled, POSE, POSITION, evaluate, pose_columns};
+use crate::mapping::{Compiled, Mapping, POSE, POSITION, evaluate, pose_columns};
 use crate::outputs::{Output, column};
 use crate::rates::Mobility;
 use crate::request::{Keep, Orientation, Solutions};
@@ -70,8 +70,18 @@ impl Counts {
     }
 }
 
+impl Mapping {
+    /// Finds the inputs in a schema.
+    ///
+    /// # Errors
+    /// If they are not there or are no numbers, or a column that would be written is there already.
+    pub fn bind(&self, schema: &Schema) -> Result<Bound, MapError> {
+        Bound::new(self.0.clone(), schema)
+    }
+}
+
 impl Bound {
-    pub(crate) fn new(of: Arc<Compiled>, schema: &Schema) -> Result<Self, MapError> {
+    fn new(of: Arc<Compiled>, schema: &Schema) -> Result<Self, MapError> {
         let inputs = Inputs::find(&of, schema)?;
         let kept: Vec<usize> = match &of.request.keep {
             Keep::All => (0..schema.fields().len()).collect(),
@@ -108,10 +118,10 @@ impl Bound {
         let units = of.request.units;
         let angle = if units.angle == Angle::Degree { "deg" } else { "rad" };
         let length = if units.length == Length::Millimetre { "mm" } else { "m" };
-        metadata.insert("denavit.robot", of.robot.as_str());
+        metadata.insert("denavit.robot", of.arm.name.as_str());
         metadata.insert("denavit.version", env!("CARGO_PKG_VERSION"));
         metadata.insert("denavit.units", format!("{angle},{length}"));
-        metadata.insert("denavit.joints", joined(of.joints.iter().map(|[own, _]| own.as_str())));
+        metadata.insert("denavit.joints", joined(of.arm.joints.iter().map(|[own, _]| own.as_str())));
         if !of.request.poses.is_empty() || of.solver.is_some() {
             metadata.insert("denavit.orientation", of.request.orientation.to_string());
         }
@@ -183,7 +193,7 @@ impl Bound {
                 columns.push(column(values, output.quantity.scale(of.request.units), nulls.as_ref()));
             }
         }
-        let entries: Vec<usize> = (0..6 * of.joints.len()).collect();
+        let entries: Vec<usize> = (0..6 * of.arm.joints.len()).collect();
         if let Some(function) = &of.jacobian {
             let all = evaluate(function, &q, &entries);
             columns.extend(all.into_iter().map(|values| column(values, Scale::One, nulls.as_ref())));
@@ -200,7 +210,7 @@ impl Bound {
             let state: Vec<&Cow<'_, [f64]>> =
                 q.iter().copied().chain(&velocities.columns).chain(&accelerations.columns).collect();
             let nulls = nulls_of(&own);
-            let all = evaluate(function, &state, &(0..of.joints.len()).collect::<Vec<_>>());
+            let all = evaluate(function, &state, &(0..of.arm.joints.len()).collect::<Vec<_>>());
             columns.extend(all.into_iter().map(|values| column(values, Scale::One, nulls.as_ref())));
             merge(&mut faults, &own);
         }
@@ -210,7 +220,14 @@ impl Bound {
             let pose = read(&self.inputs.pose, &mut own)?;
             let near = read(&self.inputs.near, &mut own)?;
             let near = self.inputs.near.is_some().then_some(&near.columns[..]);
-            columns.extend(solver.columns(of, &pose.columns, near, &mut own, &mut more_solutions));
+            columns.extend(solver.columns(
+                &of.arm,
+                &of.request,
+                &pose.columns,
+                near,
+                &mut own,
+                &mut more_solutions,
+            ));
             merge(&mut faults, &own);
         }
         let count = |fault: Fault| faults.iter().filter(|f| **f == fault).count() as u64;
@@ -266,7 +283,7 @@ impl Compiled {
         }
         let Self { request, .. } = self;
         let numbers = outputs.iter().map(|o| Arc::new(o.field(&request.prefix, request.units)));
-        numbers.chain(self.solver.iter().flat_map(|s: &Solver| s.fields(self))).collect()
+        numbers.chain(self.solver.iter().flat_map(|s: &Solver| s.fields(&self.arm, request))).collect()
     }
 }
 
@@ -320,15 +337,16 @@ impl Inputs {
         let joints =
             |what: &str, seconds: u8, asked: &Option<String>, option: &str, bare: &str, rate: &str| {
                 let quantities: Vec<Quantity> =
-                    of.is_angle.iter().map(|&is_angle| Quantity::of_joint(is_angle, seconds)).collect();
-                let own =
-                    |k: usize| of.joints.iter().map(|j| format!("{rate}{}", j[k])).collect::<Vec<String>>();
+                    of.arm.is_angle.iter().map(|&is_angle| Quantity::of_joint(is_angle, seconds)).collect();
+                let own = |k: usize| {
+                    of.arm.joints.iter().map(|j| format!("{rate}{}", j[k])).collect::<Vec<String>>()
+                };
                 // q1 … of rates are qd1 …, as well.
-                let numbered = (1..=of.joints.len()).map(|k| format!("{bare}{k}")).collect();
-                let indexed = (0..of.joints.len()).map(|k| format!("{bare}[{k}]")).collect();
+                let numbered = (1..=of.arm.joints.len()).map(|k| format!("{bare}{k}")).collect();
+                let indexed = (0..of.arm.joints.len()).map(|k| format!("{bare}[{k}]")).collect();
                 let mut usual = vec![own(0), own(1), numbered, vec![bare.to_string()], indexed];
                 if seconds == 0 {
-                    let joint = (1..=of.joints.len()).map(|k| format!("joint_{k}")).collect();
+                    let joint = (1..=of.arm.joints.len()).map(|k| format!("joint_{k}")).collect();
                     usual.push(joint);
                 }
                 let mut once: Vec<Vec<String>> = vec![];

@@ -6,6 +6,7 @@
 //!
 //! With the feature `files`, [`files`] maps whole files, part by part.
 
+mod arm;
 mod bound;
 mod columns;
 #[cfg(feature = "files")]

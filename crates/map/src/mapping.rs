@@ -1,13 +1,12 @@
 //! A request compiled for a robot.
 
 use crate::MapError;
-use crate::bound::Bound;
+use crate::arm::Arm;
 use crate::inverse::Solver;
 use crate::outputs::Output;
 use crate::rates::Mobility;
 use crate::request::{Frame, Orientation, Request, Solutions};
 use crate::unit::Quantity;
-use arrow_schema::Schema;
 use denavit::description::Description;
 use denavit::dynamics::{DynamicFunction, DynamicPrograms, Masses};
 use denavit::forward::{Reference, frames_program};
@@ -26,12 +25,7 @@ pub struct Mapping(pub(crate) Arc<Compiled>);
 
 /// What a mapping is.
 pub struct Compiled {
-    /// The robot's name.
-    pub robot: String,
-    /// The names of its joint variables, and what they are called in its file.
-    pub joints: Vec<[String; 2]>,
-    /// Which joints turn.
-    pub is_angle: Vec<bool>,
+    pub arm: Arm,
     pub request: Request,
     /// The poses, sixteen results a frame.
     pub poses: Option<Function>,
@@ -87,9 +81,18 @@ impl Mapping {
             [own, other]
         };
         Ok(Mapping(Arc::new(Compiled {
-            robot: d.name.clone(),
-            joints: variables.iter().enumerate().map(|(k, v)| name(k, v.symbol.name().to_string())).collect(),
-            is_angle: variables.iter().map(|v| v.kind == denavit::description::JointKind::Revolute).collect(),
+            arm: Arm {
+                name: d.name.clone(),
+                joints: variables
+                    .iter()
+                    .enumerate()
+                    .map(|(k, v)| name(k, v.symbol.name().to_string()))
+                    .collect(),
+                is_angle: variables
+                    .iter()
+                    .map(|v| v.kind == denavit::description::JointKind::Revolute)
+                    .collect(),
+            },
             request: request.clone(),
             poses,
             jacobian,
@@ -107,24 +110,17 @@ impl Mapping {
             of.poses.is_some() || of.jacobian.is_some() || of.mobility.is_some() || of.torque.is_some();
         let is_near = of.solver.as_ref().is_some_and(|s| s.wish.solutions == Solutions::Nearest);
         if has_state || is_near {
-            all.extend(of.joints.iter().map(|[own, _]| own.clone()));
+            all.extend(of.arm.joints.iter().map(|[own, _]| own.clone()));
         }
         if of.torque.is_some() {
-            let numbered = |front: &'static str| (1..=of.joints.len()).map(move |k| format!("{front}{k}"));
+            let numbered =
+                |front: &'static str| (1..=of.arm.joints.len()).map(move |k| format!("{front}{k}"));
             all.extend(numbered("qd").chain(numbered("qdd")));
         }
         if of.solver.is_some() {
             all.extend(pose_columns(of.request.orientation).into_iter().map(|c| c.name));
         }
         all
-    }
-
-    /// Finds the inputs in a schema.
-    ///
-    /// # Errors
-    /// If they are not there or are no numbers, or a column that would be written is there already.
-    pub fn bind(&self, schema: &Schema) -> Result<Bound, MapError> {
-        Bound::new(self.0.clone(), schema)
     }
 }
 
@@ -143,7 +139,7 @@ impl Compiled {
 
     /// The columns of the Jacobian, row by row.
     pub fn jacobian_columns(&self) -> Vec<Output> {
-        let joints = || self.joints.iter().zip(&self.is_angle);
+        let joints = || self.arm.joints.iter().zip(&self.arm.is_angle);
         let each = ROWS.iter().enumerate().flat_map(|(r, row)| {
             joints().map(move |([joint, _], &is_angle)| {
                 // Metres a radian and radians a metre keep their units, whatever columns are written in.
@@ -160,7 +156,7 @@ impl Compiled {
 
     /// The columns of torques.
     pub fn torque_columns(&self) -> Vec<Output> {
-        let each = self.joints.iter().zip(&self.is_angle);
+        let each = self.arm.joints.iter().zip(&self.arm.is_angle);
         each.map(|([joint, _], &is_angle)| {
             Output::new(format!("tau_{joint}"), if is_angle { Quantity::Torque } else { Quantity::Force })
         })
