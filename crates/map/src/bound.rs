@@ -2,8 +2,8 @@
 
 use crate::MapError;
 use crate::columns::{Fault, Input, Read, Wanted, names_of};
-use crate::compiled::{Compiled, POSE, POSITION, evaluate, pose_columns};
 use crate::inverse::Solver;
+use crate::mapping::{Compiled, Mapping, POSE, POSITION, evaluate, pose_columns};
 use crate::outputs::{Output, column};
 use crate::rates::Mobility;
 use crate::request::{Keep, Orientation, Solutions};
@@ -70,10 +70,20 @@ impl Counts {
     }
 }
 
+impl Mapping {
+    /// Finds the inputs in a schema.
+    ///
+    /// # Errors
+    /// If they are not there or are no numbers, or a column that would be written is there already.
+    pub fn bind(&self, schema: &Schema) -> Result<Bound, MapError> {
+        Bound::new(self.0.clone(), schema)
+    }
+}
+
 impl Bound {
-    pub(crate) fn new(of: Arc<Compiled>, schema: &Schema) -> Result<Self, MapError> {
+    fn new(of: Arc<Compiled>, schema: &Schema) -> Result<Self, MapError> {
         let inputs = Inputs::find(&of, schema)?;
-        let kept: Vec<usize> = match &of.asked.request.keep {
+        let kept: Vec<usize> = match &of.request.keep {
             Keep::All => (0..schema.fields().len()).collect(),
             Keep::Some(names) => {
                 let find = |name: &String| {
@@ -105,15 +115,15 @@ impl Bound {
         let mut metadata = schema.metadata().clone();
         // What other programs say of all columns is no longer true.
         metadata.retain(|key, _| key != "pandas" && !key.starts_with("org.apache.spark"));
-        let units = of.asked.request.units;
+        let units = of.request.units;
         let angle = if units.angle == Angle::Degree { "deg" } else { "rad" };
         let length = if units.length == Length::Millimetre { "mm" } else { "m" };
-        metadata.insert("denavit.robot", of.asked.robot.as_str());
+        metadata.insert("denavit.robot", of.arm.name.as_str());
         metadata.insert("denavit.version", env!("CARGO_PKG_VERSION"));
         metadata.insert("denavit.units", format!("{angle},{length}"));
-        metadata.insert("denavit.joints", joined(of.asked.joints.iter().map(|[own, _]| own.as_str())));
-        if !of.asked.request.poses.is_empty() || of.solver.is_some() {
-            metadata.insert("denavit.orientation", of.asked.request.orientation.to_string());
+        metadata.insert("denavit.joints", joined(of.arm.joints.iter().map(|[own, _]| own.as_str())));
+        if !of.request.poses.is_empty() || of.solver.is_some() {
+            metadata.insert("denavit.orientation", of.request.orientation.to_string());
         }
         let schema = Arc::new(Schema::new_with_metadata(fields, metadata));
         Ok(Bound { of, inputs, kept, schema })
@@ -158,7 +168,7 @@ impl Bound {
 
     /// How many numbers a column that is computed has in a row, about.
     pub fn fanout(&self) -> usize {
-        let lists = self.of.asked.request.inverse.is_some_and(|i| i.solutions == Solutions::Lists);
+        let lists = self.of.request.inverse.is_some_and(|i| i.solutions == Solutions::Lists);
         if lists { 8 } else { 1 }
     }
 
@@ -180,10 +190,10 @@ impl Bound {
         if let Some(function) = &of.poses {
             let all = poses(of, &q, function);
             for (values, output) in all.into_iter().zip(of.pose_columns()) {
-                columns.push(column(values, output.quantity.scale(of.asked.request.units), nulls.as_ref()));
+                columns.push(column(values, output.quantity.scale(of.request.units), nulls.as_ref()));
             }
         }
-        let entries: Vec<usize> = (0..6 * of.asked.joints.len()).collect();
+        let entries: Vec<usize> = (0..6 * of.arm.joints.len()).collect();
         if let Some(function) = &of.jacobian {
             let all = evaluate(function, &q, &entries);
             columns.extend(all.into_iter().map(|values| column(values, Scale::One, nulls.as_ref())));
@@ -200,7 +210,7 @@ impl Bound {
             let state: Vec<&Cow<'_, [f64]>> =
                 q.iter().copied().chain(&velocities.columns).chain(&accelerations.columns).collect();
             let nulls = nulls_of(&own);
-            let all = evaluate(function, &state, &(0..of.asked.joints.len()).collect::<Vec<_>>());
+            let all = evaluate(function, &state, &(0..of.arm.joints.len()).collect::<Vec<_>>());
             columns.extend(all.into_iter().map(|values| column(values, Scale::One, nulls.as_ref())));
             merge(&mut faults, &own);
         }
@@ -210,7 +220,14 @@ impl Bound {
             let pose = read(&self.inputs.pose, &mut own)?;
             let near = read(&self.inputs.near, &mut own)?;
             let near = self.inputs.near.is_some().then_some(&near.columns[..]);
-            columns.extend(solver.columns(&of.asked, &pose.columns, near, &mut own, &mut more_solutions));
+            columns.extend(solver.columns(
+                &of.arm,
+                &of.request,
+                &pose.columns,
+                near,
+                &mut own,
+                &mut more_solutions,
+            ));
             merge(&mut faults, &own);
         }
         let count = |fault: Fault| faults.iter().filter(|f| **f == fault).count() as u64;
@@ -264,9 +281,9 @@ impl Compiled {
         if self.torque.is_some() {
             outputs.extend(self.torque_columns());
         }
-        let request = &self.asked.request;
+        let Self { request, .. } = self;
         let numbers = outputs.iter().map(|o| Arc::new(o.field(&request.prefix, request.units)));
-        numbers.chain(self.solver.iter().flat_map(|s: &Solver| s.fields(&self.asked))).collect()
+        numbers.chain(self.solver.iter().flat_map(|s: &Solver| s.fields(&self.arm, request))).collect()
     }
 }
 
@@ -275,9 +292,9 @@ fn poses(of: &Compiled, q: &[&Cow<'_, [f64]>], function: &denavit_program::Funct
     // Rows of a matrix, and its translation.
     const TURNED: [usize; 9] = [0, 1, 2, 4, 5, 6, 8, 9, 10];
     const MOVED: [usize; 3] = [3, 7, 11];
-    let orientation = of.asked.request.orientation;
+    let orientation = of.request.orientation;
     let is_matrix = orientation == Orientation::Set(OrientationSet::Matrix);
-    let frames = &of.asked.request.poses;
+    let frames = &of.request.poses;
     let wanted: Vec<usize> =
         (0..frames.len()).flat_map(|f| MOVED.iter().chain(&TURNED).map(move |k| f * POSE + k)).collect();
     let mut entries = evaluate(function, q, &wanted).into_iter();
@@ -315,21 +332,21 @@ fn poses(of: &Compiled, q: &[&Cow<'_, [f64]>], function: &denavit_program::Funct
 
 impl Inputs {
     fn find(of: &Compiled, schema: &Schema) -> Result<Self, MapError> {
-        let request = &of.asked.request;
+        let request = &of.request;
         let names = &request.names;
         let joints =
             |what: &str, seconds: u8, asked: &Option<String>, option: &str, bare: &str, rate: &str| {
                 let quantities: Vec<Quantity> =
-                    of.asked.is_angle.iter().map(|&is_angle| Quantity::of_joint(is_angle, seconds)).collect();
+                    of.arm.is_angle.iter().map(|&is_angle| Quantity::of_joint(is_angle, seconds)).collect();
                 let own = |k: usize| {
-                    of.asked.joints.iter().map(|j| format!("{rate}{}", j[k])).collect::<Vec<String>>()
+                    of.arm.joints.iter().map(|j| format!("{rate}{}", j[k])).collect::<Vec<String>>()
                 };
                 // q1 … of rates are qd1 …, as well.
-                let numbered = (1..=of.asked.joints.len()).map(|k| format!("{bare}{k}")).collect();
-                let indexed = (0..of.asked.joints.len()).map(|k| format!("{bare}[{k}]")).collect();
+                let numbered = (1..=of.arm.joints.len()).map(|k| format!("{bare}{k}")).collect();
+                let indexed = (0..of.arm.joints.len()).map(|k| format!("{bare}[{k}]")).collect();
                 let mut usual = vec![own(0), own(1), numbered, vec![bare.to_string()], indexed];
                 if seconds == 0 {
-                    let joint = (1..=of.asked.joints.len()).map(|k| format!("joint_{k}")).collect();
+                    let joint = (1..=of.arm.joints.len()).map(|k| format!("joint_{k}")).collect();
                     usual.push(joint);
                 }
                 let mut once: Vec<Vec<String>> = vec![];
@@ -371,7 +388,7 @@ impl Inputs {
 
 /// The columns of poses.
 fn pose(of: &Compiled, schema: &Schema) -> Result<Input, MapError> {
-    let request = &of.asked.request;
+    let request = &of.request;
     let quantities: Vec<Quantity> =
         pose_columns(request.orientation).into_iter().map(|c| c.quantity).collect();
     let names = &request.names;

@@ -1,10 +1,10 @@
 //! Joints for poses, row by row.
 
 use crate::MapError;
-use crate::asked::Asked;
+use crate::arm::Arm;
 use crate::columns::Fault;
 use crate::outputs::{column, numbers_field};
-use crate::request::{Inverse, Orientation, Solutions};
+use crate::request::{Inverse, Orientation, Request, Solutions};
 use crate::unit::{Quantity, Scale};
 use arrow_array::builder::{Float64Builder, ListBuilder, StringBuilder};
 use arrow_array::{ArrayRef, BooleanArray, Int32Array};
@@ -44,12 +44,12 @@ impl Solver {
     }
 
     /// How its columns are declared.
-    pub fn fields(&self, of: &Asked) -> Vec<FieldRef> {
-        let prefix = &of.request.prefix;
+    pub fn fields(&self, arm: &Arm, request: &Request) -> Vec<FieldRef> {
+        let prefix = &request.prefix;
         let joints = |label: &str| -> Vec<Field> {
-            let each = of.joints.iter().zip(&of.is_angle);
+            let each = arm.joints.iter().zip(&arm.is_angle);
             each.map(|([joint, _], &is_angle)| {
-                let unit = Quantity::of_joint(is_angle, 0).unit(of.request.units);
+                let unit = Quantity::of_joint(is_angle, 0).unit(request.units);
                 numbers_field(format!("{prefix}{label}_{joint}"), DataType::Float64, unit)
             })
             .collect()
@@ -57,7 +57,7 @@ impl Solver {
         let plain = |name: &str, kind| numbers_field(format!("{prefix}ik_{name}"), kind, None);
         let mut fields = match self.wish.solutions {
             Solutions::Lists => {
-                let kinds = of.is_angle.iter().all(|&x| x).then(|| Quantity::Angle(0).unit(of.request.units));
+                let kinds = arm.is_angle.iter().all(|&x| x).then(|| Quantity::Angle(0).unit(request.units));
                 let kinds = kinds.flatten();
                 vec![numbers_field(format!("{prefix}ik"), solutions_type(), kinds)]
             }
@@ -79,15 +79,16 @@ impl Solver {
     /// The columns of poses; `faults` learns which rows hold none.
     pub fn columns(
         &self,
-        of: &Asked,
+        arm: &Arm,
+        request: &Request,
         pose: &[Cow<'_, [f64]>],
         near: Option<&[Cow<'_, [f64]>]>,
         faults: &mut [Fault],
         more: &mut u64,
     ) -> Vec<ArrayRef> {
-        let (rows, n) = (faults.len(), of.joints.len());
+        let (rows, n) = (faults.len(), arm.joints.len());
         let scales: Vec<Scale> =
-            of.is_angle.iter().map(|&a| Quantity::of_joint(a, 0).scale(of.request.units)).collect();
+            arm.is_angle.iter().map(|&a| Quantity::of_joint(a, 0).scale(request.units)).collect();
         let mut said = Said::default();
         let mut lists = ListBuilder::new(ListBuilder::new(Float64Builder::new()));
         let slots = match self.wish.solutions {
@@ -99,11 +100,10 @@ impl Solver {
         let mut filled = vec![vec![false; rows]; slots];
         let (mut distance, mut within) = (vec![0.0; rows], vec![false; rows]);
         for row in 0..rows {
-            if faults[row] == Fault::None && at(pose, row, of.request.orientation).is_none() {
+            if faults[row] == Fault::None && at(pose, row, request.orientation).is_none() {
                 faults[row] = Fault::NoPose;
             }
-            let target =
-                (faults[row] == Fault::None).then(|| at(pose, row, of.request.orientation)).flatten();
+            let target = (faults[row] == Fault::None).then(|| at(pose, row, request.orientation)).flatten();
             let Some(target) = target else {
                 said.nothing();
                 lists.append(false);

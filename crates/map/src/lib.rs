@@ -6,10 +6,9 @@
 //!
 //! With the feature `files`, [`files`] maps whole files, part by part.
 
-mod asked;
+mod arm;
 mod bound;
 mod columns;
-mod compiled;
 #[cfg(feature = "files")]
 pub mod files;
 mod inverse;

@@ -331,7 +331,7 @@ fn what_does_not_fit_is_refused() {
     let refused = |request: &Request, input: &RecordBatch, what: &str| {
         let why = match mapping(request).bind(&input.schema()) {
             Err(why) => why.to_string(),
-            Ok(bound) => bound.run(input).err().expect("refused").to_string(),
+            Ok(bound) => bound.run(input).expect_err("refused").to_string(),
         };
         assert!(why.contains(what) && why.contains("= hint: "), "{why}");
     };

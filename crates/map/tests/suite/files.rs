@@ -27,7 +27,7 @@ fn a_file_is_what_its_batch_is() {
     let mut bytes: Vec<Vec<u8>> = vec![];
     // Row groups that are put together, and that are cut.
     for group in [1000, 50_000, 120_000] {
-        write(&input, &[whole.clone()], group);
+        write(&input, std::slice::from_ref(&whole), group);
         for threads in [1, 3] {
             let summary = mapped(&Job { threads, ..job(&input, &output) }, &fk()).expect("mapped");
             assert_eq!((summary.counts.rows, summary.counts.faults()), (120_000, 0));
@@ -52,7 +52,7 @@ fn what_goes_through() {
     let own = run(2000, 2);
     let mut columns: Vec<(String, ArrayRef)> =
         own.schema().fields().iter().zip(own.columns()).map(|(f, c)| (f.name().clone(), c.clone())).collect();
-    let text = |k: usize| (k % 3 > 0).then(|| format!("row {k}"));
+    let text = |k: usize| (!k.is_multiple_of(3)).then(|| format!("row {k}"));
     columns.push(("note".into(), Arc::new((0..2000).map(text).collect::<StringArray>())));
     let stamps = (0..2000).map(|k| 1_700_000_000_000_000 + k);
     columns.push((
@@ -63,7 +63,7 @@ fn what_goes_through() {
     let image = vec![7_u8; 20_000];
     columns.push(("image".into(), Arc::new(BinaryArray::from_iter_values((0..2000).map(|_| &image)))));
     let whole = RecordBatch::try_from_iter(columns).expect("a batch");
-    write(&input, &[whole.clone()], 2000);
+    write(&input, std::slice::from_ref(&whole), 2000);
     let summary = mapped(&job(&input, &output), &fk()).expect("mapped");
     assert!(summary.parts >= 3, "{}", summary.parts);
     let out = read(&output);
@@ -106,7 +106,7 @@ fn times_that_go_back() {
     let (input, output) = (at.join("in.parquet"), at.join("out.parquet"));
     let ordered = Job { ordered: Some("time".into()), ..job(&input, &output) };
     let own = run(200_000, 4);
-    write(&input, &[own.clone()], 50_000);
+    write(&input, std::slice::from_ref(&own), 50_000);
     mapped(&ordered, &fk()).expect("in order");
     // Its column need not go through.
     let request = Request { keep: denavit_map::Keep::Some(vec![]), ..fk() };
