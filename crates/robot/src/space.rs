@@ -132,6 +132,15 @@ impl JointSpace {
         pairs.fold(0.0, |most, (j, ((x, y), &period))| (within(y - x, period).abs() / self.unit(j)).max(most))
     }
 
+    /// The configuration halfway from one to another, whole windows left aside; how far each joint is from it at most, in its
+    /// unit, beside it.
+    pub fn halfway(&self, a: &[f64], b: &[f64]) -> (Vec<f64>, f64) {
+        let half = |((x, y), &window): ((&f64, &f64), &f64)| 0.5 * within(y - x, window);
+        let ways: Vec<f64> = a.iter().zip(b).zip(&self.turning.windows).map(half).collect();
+        let most = ways.iter().enumerate().fold(0.0_f64, |most, (j, way)| most.max(way.abs() / self.unit(j)));
+        (a.iter().zip(&ways).map(|(x, way)| x + way).collect(), most)
+    }
+
     /// True if two configurations are one, but for rounding and whole turns.
     pub fn is_same(&self, a: &[f64], b: &[f64]) -> bool {
         self.distance(a, b) <= SAME

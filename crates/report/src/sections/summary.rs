@@ -1,8 +1,8 @@
 //! The robot at a glance.
 
 use super::setting::{Setting, Topic};
-use crate::explain::Explanation;
 use crate::document::{Line, Math, Part, Section};
+use crate::explain::Explanation;
 use crate::words::{Factors, Glance};
 use denavit::inverse::Refusal;
 use denavit::velocity::{Obstacle, Singularities, Singularity};
@@ -52,9 +52,7 @@ fn inverse(s: &Setting) -> Line {
             let pose = s.words().closed_form(model.max_solutions(), &given.collect::<Vec<_>>());
             let position = Explanation::of_its_position(model).and_then(|e| e.solutions);
             match position {
-                Some(count) => {
-                    s.words().and_of_the_position(&pose, &s.words().closed_form(count, &[]))
-                }
+                Some(count) => s.words().and_of_the_position(&pose, &s.words().closed_form(count, &[])),
                 None => pose,
             }
         }

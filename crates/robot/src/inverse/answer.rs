@@ -18,6 +18,9 @@ pub struct Answer {
     pub obstacle: Option<Obstacle>,
 }
 
+/// Solutions that are one may be this far from what lies halfway between them, radians, and lengths by the arm's size.
+const BESIDE: f64 = 1e-3;
+
 impl Answer {
     /// No solution yet.
     pub fn empty() -> Self {
@@ -33,6 +36,32 @@ impl Answer {
     pub(in crate::inverse) fn judge(&mut self, miss: impl Fn(&[f64]) -> f64) {
         let families = self.families.iter_mut().map(|f| &mut f.representative);
         families.chain(&mut self.solutions).for_each(|s| s.residual = miss(&s.q));
+    }
+
+    /// Takes what was found without a formula for the solution beside it, where halfway between the two the pose is missed no
+    /// more than at them: a root that counts twice is known to the square root of a rounding error only.
+    pub(in crate::inverse) fn merge(&mut self, space: &JointSpace, miss: impl Fn(&[f64]) -> f64) {
+        let mut k = 0;
+        while k < self.solutions.len() {
+            let own = &self.solutions[k];
+            let is_it = |(j, s): &(usize, &Solution)| {
+                let (between, way) = space.halfway(&own.q, &s.q);
+                *j != k && way <= BESIDE && miss(&between) <= own.residual.max(s.residual)
+            };
+            let found =
+                if own.branch.is_empty() { self.solutions.iter().enumerate().find(is_it) } else { None };
+            let Some((j, _)) = found else {
+                k += 1;
+                continue;
+            };
+            let one = self.solutions.remove(k);
+            let other = &mut self.solutions[if j > k { j - 1 } else { j }];
+            other.multiplicity = other.multiplicity.max(2);
+            if one.residual < other.residual && other.branch.is_empty() {
+                (other.q, other.residual) = (one.q, one.residual);
+            }
+            self.doubt = self.doubt.or(Some(Doubt::DoubleRoot));
+        }
     }
 
     /// Adds what a descent found: the curve through it, if the arm can move there with its hand still, or a solution.

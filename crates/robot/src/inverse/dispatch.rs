@@ -298,6 +298,7 @@ impl InverseKinematics {
             answer.spread(&self.space);
             answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));
         }
+        answer.merge(&self.space, |q| newton::distance(&self.robot, self.goal, pose, q, size));
         answer
     }
 

@@ -6,7 +6,7 @@ use denavit::description::{Description, JointKind, Variable};
 use denavit::geometry::Transform;
 use denavit::idealise::Ideal;
 use denavit::inverse::{
-    Answer, Criterion, Family, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
+    Answer, Criterion, Family, Goal, InverseKinematics, JointSpace, Nearest, Obstacle, Solution,
 };
 use denavit::motion::follow::Jump;
 use denavit::quantity::reading;
@@ -23,6 +23,7 @@ pub struct Question {
     /// What is wanted of the solutions.
     pub wanted: Wanted,
     robot: String,
+    goal: Goal,
     method: &'static str,
     names: Vec<(String, f64)>,
     /// What the file calls the joints, where it does.
@@ -69,10 +70,11 @@ impl Question {
         let names = solver.given.iter().map(name).zip(given.iter().copied()).collect();
         let ideal = ideal.map(Idealised::from);
         let (robot, method, space) = (description.name.clone(), solver.method(), solver.space.clone());
+        let goal = solver.goal;
         let joint = |v: &Variable| (v.symbol.name().to_string(), v.kind);
         let joints = variables.iter().map(joint).collect();
         let called = description.joint_names();
-        Question { given, criterion, wanted, robot, method, names, called, space, joints, ideal }
+        Question { given, criterion, wanted, robot, goal, method, names, called, space, joints, ideal }
     }
 
     /// The answer, and the solution that is best by the criterion, if there is one; `at` is a configuration that the pose was
@@ -367,8 +369,9 @@ impl Report<'_> {
 
     fn family(&self, k: usize, f: &Family) -> String {
         let mut text = format!(
-            "\n  {}: the hand stands still while {} move{}\n",
+            "\n  {}: the {} stands still while {}{}\n",
             styled(&format!("family {}", k + 1), HEADING),
+            if self.question.goal == Goal::Position { "point of the tool" } else { "hand" },
             self.moving(f),
             match (f.is_affine, f.dimension) {
                 (true, _) => ", in these proportions everywhere",
@@ -413,8 +416,12 @@ impl Report<'_> {
         let largest = f.direction.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let variables = self.description.variables();
         let moving = variables.iter().zip(&f.direction).filter(|(_, x)| x.abs() > 1e-9);
-        let parts: Vec<String> =
-            moving.map(|(v, x)| format!("{} by {}", v.symbol.name(), number(x / largest, 1e-9))).collect();
-        parts.join(", ")
+        let moving: Vec<_> = moving.collect();
+        if let [(v, _)] = moving[..] {
+            return format!("{} moves", v.symbol.name());
+        }
+        let part =
+            |(v, x): &(&Variable, &f64)| format!("{} by {}", v.symbol.name(), number(*x / largest, 1e-9));
+        format!("{} move", moving.iter().map(part).collect::<Vec<_>>().join(", "))
     }
 }

@@ -127,7 +127,9 @@ impl Velocity for French {
 
     fn no_example(&self, assumes: bool) -> String {
         match assumes {
-            true => say!("aucune configuration n'a été trouvée où ce facteur s'annule seul, avec les longueurs supposées ici"),
+            true => say!(
+                "aucune configuration n'a été trouvée où ce facteur s'annule seul, avec les longueurs supposées ici"
+            ),
             false => say!("aucune configuration n'a été trouvée où ce facteur s'annule seul"),
         }
     }

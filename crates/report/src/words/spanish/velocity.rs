@@ -68,7 +68,11 @@ impl Velocity for Spanish {
     }
 
     fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
-        let free = if is_redundant { ", y hay articulaciones que pueden moverse mientras él está quieto" } else { "" };
+        let free = if is_redundant {
+            ", y hay articulaciones que pueden moverse mientras él está quieto"
+        } else {
+            ""
+        };
         format!(
             "El rango es como mucho {rank}: en todas las configuraciones le falta una dirección al efector final{free}. El rango es aún menor donde son nulos los determinantes de todas las elecciones de \
              {rank} filas y {rank} articulaciones. Se omiten los que son nulos en todas partes."

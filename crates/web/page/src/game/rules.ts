@@ -129,7 +129,7 @@ export function judgeZ(arm: Arm, frame: number, before: Placed, origin: Point, z
     if (x && !isSquare(x, z)) return { right: false, words: `x${frame} has to go from z${frame - 1} to the origin, and z${frame} stands at a right angle to that.` };
     return { right: true, words: "Right: of the last frame most let z go the way of the hand." };
   }
-  if (!isParallel(arm.axes[index].along, z)) return { right: false, words: `z${frame} goes along the axis of ${joint(index)}, about which ${arm.axes[index].kind === "R" ? "that joint turns" : "it slides"}.` };
+  if (!isParallel(arm.axes[index].along, z)) return { right: false, words: `z${frame} goes along the axis of ${joint(index)}, ${arm.axes[index].kind === "R" ? "about which that joint turns" : "along which it slides"}.` };
   return { right: true, words: "Right; the opposite direction would be, too." };
 }
 
