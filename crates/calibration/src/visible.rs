@@ -82,6 +82,15 @@ impl Visible {
         vector
     }
 
+    /// Where nothing says how long anything is: the length that stands for the scale, held at what the table says, and the
+    /// kept parameters that are what they are with it only.
+    pub fn scaled(&self) -> Option<(usize, Vec<usize>)> {
+        let (_, (pivot, vector)) =
+            self.null.iter().zip(&self.reduced).find(|(n, _)| n.cause == Cause::Scale)?;
+        let with = self.kept.iter().copied().filter(|&k| vector[k].abs() > NOTHING);
+        Some((*pivot, with.collect()))
+    }
+
     /// How many of the null vectors were found in numbers alone.
     pub fn found(&self) -> usize {
         self.null.iter().filter(|n| n.cause == Cause::Found).count()

@@ -283,6 +283,13 @@ pub fn found_lines(problem: &Problem, visible: &Visible, found: &Calibrated, han
             lines.push(format!("    {with}{}{more}", names.join("; ")));
         }
     }
+    if let Some((pivot, with)) = visible.scaled() {
+        lines.push(format!(
+            "  how long everything is, these measurements do not say: {} is held as the table has it, and {} lengths go with it in proportion, those beside the arm too",
+            parameter(visible.parameters[pivot], problem.last()),
+            with.len()
+        ));
+    }
     let is_of_size = hand[0].is_finite() && problem.measurement != Measurement::Orientation;
     if is_of_size && found.unseen.is_empty() && problem.fixtures.is_empty() {
         lines.push(format!(

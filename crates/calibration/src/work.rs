@@ -331,6 +331,7 @@ impl<'a> Work<'a> {
     }
 
     pub fn estimates(&self, split: &Split, fit: &Fit, covariance: &[Vec<f64>]) -> Vec<Estimate> {
+        let scaled = self.visible.scaled().map(|s| s.1).unwrap_or_default();
         let one = |(i, &k): (usize, &usize)| {
             let hidden: f64 = split.unseen.iter().map(|v| v[i] * v[i]).sum();
             let deviation = covariance[i][i].sqrt();
@@ -339,7 +340,7 @@ impl<'a> Work<'a> {
             let value = fit.state.x.get(k).copied();
             Estimate {
                 parameter: self.visible.parameters[k],
-                value: value.filter(|_| is_seen).map(|value| [value, deviation]),
+                value: value.filter(|_| is_seen && !scaled.contains(&k)).map(|value| [value, deviation]),
             }
         };
         let is_of_arm = |e: &Estimate| !matches!(e.parameter, Parameter::Fixture(..));

@@ -359,6 +359,9 @@ fn resampled(t: &[f64], x: &[f64], step: f64) -> Vec<f64> {
         .collect()
 }
 
+/// Rates that differ by less from those of the positions are these.
+const SAME: f64 = 0.03;
+
 /// Whether recorded rates are those of the positions, and accelerations those of the rates.
 fn consistent(
     q: &[Vec<f64>],
@@ -367,20 +370,24 @@ fn consistent(
     step: f64,
     edge: usize,
 ) -> Result<(), NoMotion> {
-    let ratio = |of: &[f64], recorded: &[f64]| -> Option<f64> {
+    let ratio = |of: &[f64], recorded: &[f64]| -> Option<[f64; 2]> {
         let own = derivative(of, step);
         let rows = edge..own.len().saturating_sub(edge);
         let sum = |a: &[f64], b: &[f64]| rows.clone().map(|r| a[r] * b[r]).sum::<f64>();
         let (dd, dr, rr) = (sum(&own, &own), sum(&own, recorded), sum(recorded, recorded));
-        // What they have in common says how large one is by the other, where it is most of both.
-        (dr * dr > 0.5 * dd * rr && dd > 0.0).then(|| dr / dd)
+        // What they have in common says how large one is by the other, where it is most of both: between these two, whichever of
+        // them has the noise.
+        (dr * dr > 0.5 * dd * rr && dd > 0.0).then(|| [dr / dd, rr / dr])
     };
-    let is_off = |k: f64| !(0.7..1.4).contains(&k);
+    let off = |[one, other]: [f64; 2]| {
+        let (low, high) = (one.min(other), one.max(other));
+        (low > 1.0 + SAME || high < 1.0 - SAME).then(|| if low > 0.0 { (low * high).sqrt() } else { one })
+    };
     for j in 0..q.len() {
-        if let Some(k) = ratio(&q[j], &qd[j]).filter(|k| is_off(*k)) {
+        if let Some(k) = ratio(&q[j], &qd[j]).and_then(off) {
             return Err(NoMotion::Rates(j, k));
         }
-        if let Some(k) = ratio(&qd[j], &qdd[j]).filter(|k| is_off(*k)) {
+        if let Some(k) = ratio(&qd[j], &qdd[j]).and_then(off) {
             return Err(NoMotion::Accelerations(j, k));
         }
     }

@@ -153,8 +153,27 @@ fn searched(
             best = other;
         }
     }
+    let best = plainest(&search, best);
     let best = settled(&search, best);
     said(arm, recording, roles, &search, &found, best, strokes)
+}
+
+/// The columns as they stand take part at the end, whatever the survey of angles thought of them: with few rows frames take
+/// up what a zero of a joint would, and one of the two is nothing to accuse.
+fn plainest<'a>(search: &Search<'a>, best: Reading<'a>) -> Reading<'a> {
+    let cheapest = search.bases().iter().map(Hypothesis::cost).fold(f64::INFINITY, f64::min);
+    let plain = search.bases().iter().filter(|h| h.cost() <= cheapest);
+    let framed = plain.flat_map(|h| search.framed(&Rc::new(h.clone()), best.format, search.data.arm));
+    let direct = framed.filter(|r| r.direction == Direction::Direct);
+    let all = direct.flat_map(|r| search.nested(&r, &[], 8));
+    // What is as good but for a nat or two is told by what is accused.
+    let accused = |r: &Reading| slips(r, search.data.arm).0.len();
+    let own = accused(&best);
+    let is_better = |r: &Reading| {
+        r.score < best.score || (r.score < best.score + TIED && r.rho <= UNDERSTOOD && accused(r) < own)
+    };
+    let found = all.filter(is_better).min_by(|a, b| a.score.total_cmp(&b.score));
+    found.unwrap_or(best)
 }
 
 /// A reading in which a frame that is none is exactly none, if that explains as much.

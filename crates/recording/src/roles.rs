@@ -399,8 +399,10 @@ impl Names {
                 self.plain.iter().enumerate().position(|(k, p)| *p == name && !taken.contains(&k))
             };
             ends.iter().map(find).collect::<Option<Vec<_>>>().map(|mut found| {
-                // As they stand: which is w is for the search to say.
-                found.sort_unstable();
+                // Of four as they stand: which is w is for the search to say.
+                if found.len() == 4 {
+                    found.sort_unstable();
+                }
                 found
             })
         };

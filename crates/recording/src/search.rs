@@ -260,10 +260,15 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// So many independent rows stand behind a residual: recorded rows are like their neighbours, and few are few.
+    fn weight(&self) -> f64 {
+        (2.0 * (self.data.fit.len() + self.data.held.len()) as f64).min(60.0)
+    }
+
     /// L of a reading, base and tool as they are known to be.
     pub fn score(&self, reading: &Reading) -> f64 {
         let is = |yes: bool, cost: f64| if yes { cost } else { 0.0 };
-        60.0 * (0.15 + reading.rho).ln()
+        self.weight() * (0.15 + reading.rho).ln()
             + reading.hypothesis.cost()
             + self.data.decoded[reading.format].cost
             + is(reading.direction != Direction::Direct, 2.0)

@@ -20,6 +20,8 @@ pub struct Answer {
 
 /// Solutions that are one may be this far from what lies halfway between them, radians, and lengths by the arm's size.
 const BESIDE: f64 = 1e-3;
+/// No rounding of a pose moves a solution this far from it.
+const GROSS: f64 = 1e-2;
 
 impl Answer {
     /// No solution yet.
@@ -36,6 +38,15 @@ impl Answer {
     pub(in crate::inverse) fn judge(&mut self, miss: impl Fn(&[f64]) -> f64) {
         let families = self.families.iter_mut().map(|f| &mut f.representative);
         families.chain(&mut self.solutions).for_each(|s| s.residual = miss(&s.q));
+    }
+
+    /// Leaves out what misses the pose by more than any rounding does: a mistake of a method, which may lack others then.
+    pub(in crate::inverse) fn leave_false(&mut self) {
+        let before = self.solutions.len();
+        self.solutions.retain(|s| s.residual <= GROSS);
+        if self.solutions.len() < before {
+            self.doubt = self.doubt.or(Some(Doubt::Uncounted));
+        }
     }
 
     /// Takes what was found without a formula for the solution beside it, where halfway between the two the pose is missed no

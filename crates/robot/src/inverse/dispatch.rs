@@ -285,6 +285,7 @@ impl InverseKinematics {
         answer.judge(|q| newton::distance(&self.robot, self.goal, pose, q, size));
         // Numbers so large that nothing follows from them.
         answer.solutions.retain(|s| s.residual.is_finite());
+        answer.leave_false();
         answer.families.retain(|f| f.representative.residual.is_finite());
         if !answer.is_reachable() {
             if given.is_empty() {

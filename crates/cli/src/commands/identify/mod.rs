@@ -16,8 +16,8 @@ use denavit::description::{Description, JointKind, Measure, write_toml};
 use denavit::dynamics::{Dynamics, OfTree};
 use denavit::geometry::Body;
 use denavit_identification::{
-    Asked, Column, Columns, Cutoff, Joints, Model, NoModel, NoPlace, Options, Prior, Roles, Sought, Told,
-    consistent, described, identify, words,
+    Asked, Column, Columns, Cutoff, Joints, Known, Model, NoModel, NoPlace, Options, Prior, Roles, Sought,
+    Told, consistent, described, identify, words,
 };
 use denavit_tables::{Kind, Table};
 use denavit_wire::identification as wire;
@@ -118,6 +118,10 @@ pub fn run(arguments: &IdentifyArguments) -> Result<(), Failure> {
         return Err(Failure::No(format!(
             "the recording is not one of this arm as it stands: see above{left}"
         )));
+    }
+    if !found.estimate.known.iter().any(|known| matches!(known, Known::Value(..))) {
+        let why = "this motion tells nothing of any parameter: see above, and no file is written";
+        return Err(Failure::No(why.into()));
     }
     if let (Some(file), Some(set), Some(description)) = (&arguments.output, set, &subject.description) {
         let all = described(description, &subject.model, set).map_err(|why| match why {

@@ -83,6 +83,7 @@ fn compile_with(
         edges: vec![vec![]; chain.groups.len()],
         learnt: Lattice::default(),
         angles: vec![],
+        forms: vec![],
         pairs: FxHashMap::default(),
         polys: FxHashMap::default(),
     };
@@ -125,6 +126,7 @@ struct Builder<'a> {
     /// Those that were found, with their cosines and sines, if axes follow others.
     learnt: Lattice,
     angles: Vec<(Value, Value)>,
+    forms: Vec<Vec<i64>>,
     pairs: FxHashMap<(usize, usize, usize), (Value, Value)>,
     polys: FxHashMap<Poly, Value>,
 }
@@ -158,21 +160,50 @@ impl Builder<'_> {
         }
         self.learnt.add(&self.chain.form(d));
         self.angles.push(pair);
+        self.forms.push(self.chain.form(d));
         for (&d, form) in self.chain.differences.iter().zip(&self.chain.forms) {
             if self.path(d.group, d.from, d.to).is_none()
                 && let Some(made) = self.learnt.made(form)
             {
-                let mut sum: Option<(Value, Value)> = None;
-                for (factor, &(c, s)) in made.iter().zip(&self.angles.clone()) {
-                    let s = if *factor < 0 { -s } else { s };
-                    for _ in 0..factor.unsigned_abs() {
-                        sum = Some(sum.map_or((c, s), |before| self.added(before, (c, s))));
-                    }
-                }
-                let (c, s) = sum.unwrap_or_else(|| (self.number(1), self.number(0)));
+                let (c, s) = self.multiples(&made, &self.angles.clone());
                 self.edges[d.group].push((d.from, d.to, c, s));
             }
         }
+    }
+
+    /// Cosine and sine of a sum of whole multiples of angles.
+    fn multiples(&mut self, factors: &[i64], angles: &[(Value, Value)]) -> (Value, Value) {
+        let mut sum: Option<(Value, Value)> = None;
+        for (factor, &(c, s)) in factors.iter().zip(angles) {
+            let s = if *factor < 0 { -s } else { s };
+            for _ in 0..factor.unsigned_abs() {
+                sum = Some(sum.map_or((c, s), |before| self.added(before, (c, s))));
+            }
+        }
+        sum.unwrap_or_else(|| (self.number(1), self.number(0)))
+    }
+
+    /// How far angles are from what the axes that drive make of them, where the pose told more than are independent.
+    fn contradictions(&mut self) -> Vec<Value> {
+        if self.forms.len() <= self.learnt.rank() {
+            return vec![];
+        }
+        let drivers: Vec<(Value, Value)> = (0..self.chain.drivers.axes.len())
+            .map(|i| match self.chain.axes[self.chain.drivers.axes[i]].motion {
+                Motion::Slide => (self.number(1), self.number(0)),
+                Motion::Turn { group, from, to, .. } => {
+                    let (c, s) = self.pair(group, from, to);
+                    let is_opposite = self.chain.form(Difference { group, from, to })[i] < 0;
+                    (c, if is_opposite { -s } else { s })
+                }
+            })
+            .collect();
+        let mut found = vec![];
+        for (form, (c, s)) in self.forms.clone().into_iter().zip(self.angles.clone()) {
+            let (made_c, made_s) = self.multiples(&form, &drivers);
+            found.extend([self.solver.graph.sub(c, made_c), self.solver.graph.sub(s, made_s)]);
+        }
+        found
     }
 
     /// Sines and cosines that can be composed now, and could not before, get a rank.
@@ -479,7 +510,8 @@ impl Builder<'_> {
                 best = Some((cost, rotation, position));
             }
         }
-        let (_, rotation, position) = best.expect("both sides are formed at the ends of the chain");
+        let (_, mut rotation, position) = best.expect("both sides are formed at the ends of the chain");
+        rotation.extend(self.contradictions());
         let (rotation, position) = (self.sum_of_squares(&rotation), self.sum_of_squares(&position));
         let g = &mut self.solver.graph;
         let area = g.mul(size, size);
