@@ -7,7 +7,7 @@ mod urdf;
 
 pub use denavit_load::{Around, contents, frame, is_tree, joint};
 use linkage::closed_tree;
-pub use linkage::{WholeLinkage, linkage, loops, whole, without_chain};
+pub use linkage::{WholeLinkage, beside_chain, linkage, loops, whole, without_chain};
 pub use parallel::{no_parallel, parallel};
 pub use urdf::bundle;
 

@@ -61,19 +61,42 @@ pub fn without_chain(arguments: &RobotArguments) -> Result<Option<Linkage>, Fail
             "--base: closed loops that are no serial chain are seen from their base".into(),
         ));
     }
+    said(arguments, &linkage)?;
+    Ok(Some(linkage))
+}
+
+/// The linkage that the arguments name, if links move beside its serial chain that no tree with couplings has: its findings are said.
+///
+/// # Errors
+/// As [`without_chain`] does.
+pub fn beside_chain(arguments: &RobotArguments) -> Result<Option<Linkage>, Failure> {
+    // Of a chain that is asked for by its ends there is that chain.
+    let is_asked = arguments.base.is_some() || arguments.tip.is_some();
+    let Some(linkage) = linkage(arguments)?.filter(|_| !is_asked) else { return Ok(None) };
+    let chain = linkage.chain(None, None, arguments.mode.as_deref(), Convention::Khalil).ok();
+    let closed = chain.as_ref().and_then(|c| c.closed.as_ref()).filter(|c| !c.beside.is_empty());
+    if closed.is_none_or(|closed| with_beside(arguments, &linkage, closed).is_some()) {
+        return Ok(None);
+    }
+    said(arguments, &linkage)?;
+    Ok(Some(linkage))
+}
+
+/// What is worth saying of a linkage.
+fn said(arguments: &RobotArguments, linkage: &Linkage) -> Result<(), Failure> {
     let name = arguments.robot.as_str();
     let is_listed = catalogue_name(name).is_some_and(|n| listed(&n).is_some());
     if !is_listed && Kind::of(name) == Some(Kind::Bodies) {
         file(arguments, Kind::Bodies)?; // what is worth saying of it is said
     } else if !is_listed {
         let text = contents(name, MAX_BYTES).unwrap_or_default();
-        let found = findings(&linkage);
+        let found = findings(linkage);
         if found.iter().any(|d| d.severity == Severity::Error) {
             return Err(Failure::Input(render(&found, name, &text)));
         }
         note(render(&found, name, &text).trim_end());
     }
-    Ok(Some(linkage))
+    Ok(())
 }
 
 /// Gives parameters of a linkage the values that the arguments set.

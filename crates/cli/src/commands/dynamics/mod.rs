@@ -51,6 +51,9 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     if arguments.whole && load::linkage(&arguments.robot)?.is_none() {
         return tree::run(arguments);
     }
+    if let Some(closed) = load::beside_chain(&arguments.robot)? {
+        return linkage::run(arguments, closed);
+    }
     let (mut description, around, mut whole) = match load::whole(&arguments.robot)? {
         Some((description, around, whole)) => (description, around, Some(whole)),
         None => {
