@@ -37,6 +37,7 @@ pub(super) fn names(subject: &Subject, text: &str, habits: &Habits) -> Vec<Custo
     super::loads::torques(subject, text, habits, &mut add);
     wrist(subject, &plain, places, &mut add);
     frames(subject, &plain, places, &mut add);
+    told_origins(subject, text, places, &mut add);
     wrist_rotation(subject, &plain, places, &mut add);
     super::components::of_columns(subject, &plain, places, &mut add);
     super::directions::direction(subject, &plain, places, &mut add);
@@ -307,6 +308,53 @@ fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
         if let (Some(x), Some(y)) = (subject.transform(Some(i), Some(j)), seen_through(subject, places, i, j))
         {
             add(&name, x.matrix()[r][column], y.matrix()[r][column]);
+        }
+    }
+}
+
+/// Components of a point that words call the origin of a frame: `w = (w_x, w_y), the origin of frame {3}`.
+fn told_origins(subject: &Subject, text: &str, places: &Places, add: &mut Add<'_>) {
+    const WORDS: [&str; 9] = [
+        "origin of frame",
+        "origin of the frame",
+        "origine du repère",
+        "origine du rep\\`ere",
+        "ursprung des koordinatensystems",
+        "ursprung des systems",
+        "origen del sistema",
+        "origine della terna",
+        "origem do sistema",
+    ];
+    // So far before the words the list of the components may begin.
+    const BEFORE: usize = 60;
+    let lower = text.to_ascii_lowercase();
+    for (at, word) in WORDS.iter().flat_map(|w| lower.match_indices(w).take(10)) {
+        let behind = lower[at + word.len()..].trim_start_matches(|c: char| " $\\{~".contains(c));
+        let digits = behind.chars().take_while(char::is_ascii_digit).count();
+        let Some(frame) = behind[..digits].parse().ok().filter(|k| (1..=subject.last()).contains(k)) else {
+            continue;
+        };
+        let start = (at.saturating_sub(BEFORE)..at).find(|&i| text.is_char_boundary(i)).unwrap_or(at);
+        let before = text[start..at].trim_end_matches([' ', ',', '\n', '$']);
+        let is_article = |w: &str| matches!(w, "the" | "der" | "l" | "el" | "o" | "is" | "the\n");
+        let before = match before.rsplit_once([' ', '\n', '\'']) {
+            Some((rest, word)) if is_article(word) => rest.trim_end_matches([' ', ',', '\n', '$']),
+            _ => before,
+        };
+        let Some(list) = before.strip_suffix(')').and_then(|b| b.rsplit_once('(')).map(|b| b.1) else {
+            continue;
+        };
+        let names: Vec<String> = list.split(',').map(|n| plain_name(&n.replace('$', ""))).collect();
+        let stem = names[0].strip_suffix('x').unwrap_or_default();
+        let is_list = names.iter().zip(AXES).all(|(n, axis)| n.strip_suffix(axis) == Some(stem));
+        if !(2..=3).contains(&names.len()) || !is_list || !(1..=2).contains(&stem.chars().count()) {
+            continue;
+        }
+        let (own, behind) = (subject.transform(Some(0), Some(frame)), subject.transform(None, Some(frame)));
+        let (Some(own), Some(behind)) = (own, behind) else { continue };
+        let inverse = (places.pose() * behind).translation;
+        for (r, name) in names.iter().enumerate() {
+            add(name, own.translation.0[r], inverse.0[r]);
         }
     }
 }

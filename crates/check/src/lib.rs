@@ -30,6 +30,7 @@ mod heads;
 pub mod inverse;
 mod jacobians;
 mod judge;
+mod languages;
 mod leeway;
 mod letters;
 mod lexis;
@@ -58,6 +59,7 @@ mod respelling;
 mod scripts;
 mod signs;
 mod spoken_loads;
+mod steps;
 mod still_rows;
 mod subject;
 mod supported;
@@ -132,7 +134,7 @@ pub fn check(
         notes.error(0..0, Noted::TooLong { bytes: text.len(), most: MAX_BYTES });
         return Err(notes.found());
     }
-    let respelled = respelling::respelled(text, options.language.is_some());
+    let respelled = respelling::respelled(text, options.language);
     let text = &*respelled;
     let mut document = match options.language {
         Some(language) => remarks::document(text, language),

@@ -3,6 +3,7 @@
 
 use super::CheckOptions;
 use super::lines::lines;
+use super::steps::{self, Steps};
 use super::still_rows::turned;
 use denavit::description::table::{PrintedTable, tables};
 use denavit::description::{Convention, TableKind, TableOptions};
@@ -68,6 +69,13 @@ pub(super) fn tables_of(
     };
     if most(&printed).0 > 0 {
         return if most(&listed) > most(&printed) { listed } else { printed };
+    }
+    if listed.is_empty()
+        && let Some(Steps { span, rows, convention }) = steps::told(bare)
+    {
+        let (in_degrees, is_previous) = (degrees(&rows), convention == Convention::Craig);
+        let listing = Listing { span, rows, convention: Some(convention), in_degrees, is_previous };
+        listed.extend(table(&listing, reading));
     }
     if listed.is_empty() {
         listed.extend(links(text).and_then(|l| table(&l, reading)));
@@ -296,6 +304,10 @@ fn plain_row(line: &str, head: &[Column]) -> Option<[String; 4]> {
 
 /// `4: theta4, d = 0, a = 0, alpha = -90`, `link 1: d=0.4 a=0 alpha=90 theta=q1`
 fn named_row(line: &str) -> Option<[String; 4]> {
+    // `{ a: L1, alpha: 0, d: 0, theta: q1 },`
+    let keyed = line.trim().trim_end_matches([',', ';']).strip_prefix('{').and_then(|l| l.strip_suffix('}'));
+    let keyed = keyed.map(|l| l.replace(": ", "=").replace(':', "=").replace(['"', '\''], ""));
+    let line = keyed.as_deref().unwrap_or(line);
     if line.matches('=').count() < 2 || line.contains("==") {
         return None;
     }

@@ -2,8 +2,10 @@
 
 use super::components;
 use super::displayed;
+use super::languages;
 use super::macros;
 use super::signs;
+use denavit_reading::code::Dialect;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -13,8 +15,17 @@ const COMMAS_A_POINT: usize = 4;
 const MAX_BLANKS: usize = 3;
 
 /// A text as it is read.
-pub(super) fn respelled(text: &str, is_program: bool) -> Cow<'_, str> {
+pub(super) fn respelled(text: &str, language: Option<Dialect>) -> Cow<'_, str> {
+    let is_program = language.is_some();
     let mut text = Cow::Borrowed(text);
+    let other = match language {
+        Some(Dialect::C) => languages::as_c(&text),
+        Some(Dialect::Matlab) => languages::as_matlab(&text),
+        _ => None,
+    };
+    if let Some(now) = other {
+        text = Cow::Owned(now);
+    }
     let of_all: [fn(&str) -> Option<String>; 1] = [decimal_points];
     if let Some(now) = units_without_brackets(&text, is_program) {
         text = Cow::Owned(now);

@@ -1,7 +1,7 @@
 //! A document's dynamics read in one way: its names, its formulas, and how its bodies and its gravity are read for most of them to be right.
 
 use super::bodies::bodies;
-use super::letters::{Letters, letters, maps};
+use super::letters::{Letters, from_zero, letters, maps};
 use super::measures::{Measures, measures};
 use super::model::{ALONG, COUPLED, Coordinates, Model, Numbers, Rotor, moving_rows, numbers};
 use super::points::jacobians;
@@ -144,7 +144,8 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
         bounds.is_cut.set(true);
     }
     let measures = if d.has_masses() { Measures::new() } else { measures(text) };
-    let maps = std::iter::once(Letters::new()).chain(maps);
+    let zero = from_zero(&mentioned, n).filter(|_| !d.has_masses());
+    let maps = std::iter::once(Letters::new()).chain(maps).chain(zero);
     let way = |letters: &Letters, length| Way { letters: letters.clone(), length, measures: Measures::new() };
     let mut ways: Vec<Way> =
         maps.flat_map(|m| lengths.iter().map(move |l| way(&m, *l)).collect::<Vec<_>>()).collect();

@@ -287,7 +287,7 @@ pub(super) fn bodies(
     let mut ways: Vec<(Rotor, Vec<Expr>)> = turned.iter().map(|r| (*r, inertias.clone())).collect();
     ways.push((none, inertias.clone()));
     // What words call the inertias of links are no rotors'.
-    if rotors.is_empty() && told.links.inertias.is_empty() {
+    if rotors.is_empty() && told.links.inertias.is_empty() && told.inertia != Some(Point::Centre) {
         for (at, &rotor) in inertias.iter().enumerate() {
             let others = inertias.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, e)| *e);
             ways.push((Rotor::felt(rotor), others.collect()));

@@ -79,6 +79,13 @@ pub(super) fn maps(letters: &[char], n: usize) -> (Vec<Letters>, bool) {
     (found.into_iter().take(MAX_MAPS).map(of).collect(), is_cut)
 }
 
+/// The bodies of `m_0`, `m_1`, …, which are counted from 0: none where the last of `n` has its usual number, or another one has not.
+pub(super) fn from_zero(mentioned: &BTreeSet<String>, n: usize) -> Option<Letters> {
+    let has = |k: usize| mentioned.contains(&format!("m{k}"));
+    let is_whole = n > 1 && n < 10 && (0..n).all(has) && !has(n);
+    is_whole.then(|| ('0'..='9').zip(0..n).collect())
+}
+
 /// What a name stands for where letters are those of bodies.
 pub(super) fn role_of(word: &str, n: usize, letters: &Letters) -> Option<Role> {
     let numbered = || {
@@ -97,7 +104,8 @@ pub(super) fn role_of(word: &str, n: usize, letters: &Letters) -> Option<Role> {
 pub(super) fn numbered(name: &Name, letters: &Letters) -> Option<Name> {
     let plain: Vec<char> = name.sub.chars().filter(|c| c.is_alphanumeric()).collect();
     let &[letter] = &plain[..] else { return None };
-    let body = letters.get(&letter)?;
+    // A number is that of a joint.
+    let body = letters.get(&letter).filter(|_| !letter.is_ascii_digit())?;
     Some(Name { sub: (body + 1).to_string(), ..name.clone() })
 }
 

@@ -121,6 +121,11 @@ const POTENTIAL: [&str; 14] = ["U", "V", "P", "u", "Ep", "PE", "E", "W", "Epot",
 /// Names with three indices.
 const SYMBOLS: [&str; 9] = ["c", "C", "Γ", "γ", "b", "h", "H", "B", "D"];
 
+/// True for the letters of names with three indices.
+pub(super) fn is_symbol(letters: &str) -> bool {
+    SYMBOLS.contains(&letters)
+}
+
 /// What a name with three indices means: a document has one meaning for each letter.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Style {

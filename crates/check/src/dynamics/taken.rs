@@ -3,7 +3,7 @@
 use super::letters::{Letters, is_body as is_lettered, letters};
 use super::measures::measures;
 use super::points::{Kind, Named, named};
-use super::quantity::{Content, Quantity, is_coriolis, is_inertia, key, of_scalar};
+use super::quantity::{Content, Quantity, is_coriolis, is_inertia, is_symbol, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
 use denavit_reading::document::{Document, Part, Statement};
@@ -100,7 +100,7 @@ fn spoken(source: &str, has_jacobians: bool, matrices: &BTreeSet<String>, letter
     let lone = ["m", "M", "I", "J"].iter().any(|w| has(w));
     let is_certain = has_accelerations(source)
         || words.iter().any(is_body)
-        || has("m") && has("g")
+        || has("m") && (has("g") || has("g0"))
         || has("M") && has("g")
         || lone && has_rates && !has_jacobians;
     Spoken { is_certain, words, has_rates }
@@ -159,8 +159,13 @@ pub(in crate::dynamics) fn taken(
                 let still = of_scalar(n, JOINTS, Content::default());
                 matches!(still[..], [Quantity::Inertia(..)])
             });
+            // `c_{112} = -m l^2 s_2 c_2`
+            let is_symbol = name.as_ref().is_some_and(|n| {
+                let (letters, digits) = key(n);
+                digits.len() == 3 && is_symbol(&letters)
+            });
             let role = name.and_then(|n| role(&word(&n), JOINTS));
-            (matches!(role, Some(Role::Inertia(_) | Role::About(..))) || is_entry)
+            (matches!(role, Some(Role::Inertia(_) | Role::About(..))) || is_entry || is_symbol)
                 && spoken.words.contains("m")
         };
         let is_said = (spoken.is_certain || is_inertia()) && !is_number && !is_measure(text, statement);

@@ -244,7 +244,12 @@ fn inertia(lower: &str) -> Option<Point> {
         "asse di rotazione",
         "eje de giro",
     ];
-    const ABOUT: [&str; 13] = [
+    const ABOUT: [&str; 18] = [
+        "through",
+        "passing by",
+        " durch ",
+        "passant par",
+        "passante per",
         "about",
         "around",
         "respect to",

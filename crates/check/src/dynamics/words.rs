@@ -103,9 +103,12 @@ pub(super) fn words(source: &str) -> BTreeSet<String> {
             }
             continue;
         }
-        // `g l_1` with no blank between: of letters that are squeezed so, gravity's has no index ever.
+        // `g l_1` with no blank between: of letters that are squeezed so, gravity's has no index ever; and `m a_2`, `m g_0`.
         if base.chars().count() <= 3 && base.starts_with('g') && base.len() > 1 {
             found.insert("g".to_string());
+        }
+        if matches!(base.as_str(), "ma" | "md" | "mg" | "mL" | "mr" | "mga" | "mgd" | "mgr") {
+            found.insert("m".to_string());
         }
         for base in
             [Some(last), long, (base.chars().count() <= 4).then(|| base.clone())].into_iter().flatten()
@@ -178,6 +181,9 @@ pub(super) fn is_grouped(word: &str) -> bool {
 
 /// What a name may stand for, in an arm of `n` bodies.
 pub(super) fn role(word: &str, n: usize) -> Option<Role> {
+    if word == "g0" {
+        return Some(Role::Gravity);
+    }
     let digits = word.chars().filter(char::is_ascii_digit).count();
     let index = word.chars().find(char::is_ascii_digit).and_then(|c| (c as usize).checked_sub('1' as usize));
     if digits > 1 || digits == 1 && index.is_none() {
@@ -206,7 +212,7 @@ pub(super) fn role(word: &str, n: usize) -> Option<Role> {
         "m" | "M" | "ml" | "mG" => return Some(Role::Mass(index)),
         "mm" | "mM" | "mmot" | "mr" if index.is_some() => return index.map(Role::Motor),
         "N" | "n" | "kr" | "Kr" | "kg" | "Ng" | "ng" | "η" => return Some(Role::Gear(index)),
-        "g" | "g0" if index.is_none() => return Some(Role::Gravity),
+        "g" if index.is_none() => return Some(Role::Gravity),
         _ => {}
     }
     let mut marks = letters.chars();
@@ -350,6 +356,10 @@ pub(super) fn names(
     let has_others = has_ten && mentioned.iter().any(is_mass);
     let is_other = |word: &str| has_others && word.starts_with('m');
     for word in mentioned.iter().filter(|w| !is_of_rate(w) && !is_other(w) && !is_motion(w)) {
+        // Beside `m g_0 l` the `g` of `g(q)` is no acceleration.
+        if word == "g" && mentioned.contains("g0") {
+            continue;
+        }
         // A letter of which words say that it is where a centre of mass is.
         let is_place = || word.chars().count() == 1 && word.chars().all(|c| places.contains(&c));
         let Some(role) = role_of(word, n, letters).or_else(|| is_place().then_some(Role::Length(None)))

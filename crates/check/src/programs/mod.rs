@@ -104,11 +104,12 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         let is_component = name.len() == 2 && name.starts_with(['F', 'f']) && name.ends_with(['x', 'y', 'z']);
         is_component && e.as_symbol().is_some_and(|s| *s.name() == *name) || rates.contains(e)
     };
+    let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
+    let turning = stated::joints_in_degrees(&all, subject, &|name| lexis.names.lookup(name));
     let meaning = |name: &str| {
         let found = lexis.names.lookup(name).filter(|e| !lexis.is_by_custom(name) || load(name, e));
-        found.or_else(|| member(name))
+        found.or_else(|| member(name)).map(|e| if turning.contains(&e) { stated::of_degrees(e) } else { e })
     };
-    let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
     let stated = Stated::of(&all, subject);
     let joint = |name: &str| {
         let found = lexis.names.lookup(name)?;
@@ -138,7 +139,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             places.push((line.end, comments.at.clone()));
         }
         let Code { functions, rows, refusals, .. } = code;
-        // What stands in a function that is judged as that of a row is not refused as another one.
+        // What stands in a function of a row is not refused as another one.
         let of_row = |e: &ParseError| rows.iter().any(|r| r.reading.span.contains(&e.span.start));
         found.refused.extend(refusals.iter().filter(|e| !of_row(e)).cloned().map(Unread::from));
         let convention = subject.description.convention;
@@ -170,6 +171,7 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
             found.assertions.extend(torques.into_iter().map(of_others));
             let judged = found.assertions[count..].to_vec();
             found.assertions.extend(program.recognised(function, &judged));
+            found.assertions.extend(program.places(function, &judged));
             if found.assertions.len() == count && !function.returned.is_empty() {
                 let why = Unreadable::NothingTold(function.name.clone());
                 found.refused.push(Unread::new(function.span.clone(), why));
@@ -282,10 +284,13 @@ impl Program<'_> {
             } else if is_last
                 && !is_returned
                 && let (Value::Scalar(cell), Some(sum)) = (&a.value, of_hand)
-                && equal(cell.value, sum).is_equal()
+                && (equal(cell.value, sum).is_equal()
+                    || equal(cell.value, stated::of_degrees(sum)).is_equal())
             {
                 // A name of its own for the angle of the hand.
-                let pieces = vec![self.piece(None, cell, sum)];
+                let is_plain = equal(cell.value, sum).is_equal();
+                let wanted = if is_plain { sum } else { in_radians(stated::of_degrees(sum)) };
+                let pieces = vec![self.piece(None, cell, wanted)];
                 found.push(self.assertion(&a.name, About::Equation, &a.span, pieces, None));
             }
         }

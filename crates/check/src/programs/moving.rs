@@ -12,6 +12,40 @@ use denavit_symbolic::{Expr, Symbol, equal};
 use std::ops::Range;
 
 impl Program<'_> {
+    /// Columns that are called the hand's place, `p(1) = …`, if most of their entries that move are its coordinates.
+    pub(super) fn places(&self, function: &Reading, judged: &[Assertion]) -> Vec<Assertion> {
+        const NAMES: [&str; 9] = ["p", "P", "pos", "tip", "tcp", "xyz", "p_tool", "p_tip", "p_ee"];
+        let place = Matrix::column(&self.subject.pose().translation);
+        let mut found = vec![];
+        for (i, a) in function.assigned.iter().enumerate() {
+            let Value::Matrix(rows) = &a.value else { continue };
+            let is_last = !function.assigned[i + 1..].iter().any(|b| b.name == a.name);
+            let is_judged = judged.iter().any(|x| x.span.start < a.span.end && a.span.start < x.span.end);
+            let is_line = rows.len() == 1 || rows.iter().all(|r| r.len() == 1);
+            let rows: Vec<Vec<Cell>> = rows.iter().flatten().map(|c| vec![c.clone()]).collect();
+            if !is_last || is_judged || !is_line || rows.len() != 3 || !NAMES.contains(&a.name.as_str()) {
+                continue;
+            }
+            let joints = self.subject.joints();
+            let moves = |e: Expr| e.symbols().iter().any(|s| joints.contains(&(*s).into()));
+            let values = rows.iter().flatten().map(|c| in_radians(c.value));
+            let moving: Vec<bool> = values
+                .zip(place.0.iter().flatten())
+                .filter(|(own, _)| moves(*own))
+                .map(|(own, wanted)| wanted.is_some_and(|w| equal(own, self.with_numbers(w, own)).is_equal()))
+                .collect();
+            let right = moving.iter().filter(|r| **r).count();
+            if right < 2 || 2 * right <= moving.len() {
+                continue;
+            }
+            if let Some(pieces) = self.compare(&rows, &place) {
+                let about = About::Matrix(Meaning::Position);
+                found.push(self.assertion(&a.name, about, &a.span, pieces, Some(place.clone())));
+            }
+        }
+        found
+    }
+
     /// The torques of all joints below one another, or of the first ones, in an array that is called so: `tau[3]`.
     pub(super) fn torques(
         &self,

@@ -54,8 +54,7 @@ pub(crate) fn forces(
                 f.start..end
             }));
             motion.extend(moving(&region.parameters, joint));
-            let plain =
-                Region { function: None, parameters: vec![], signs: vec![], lines: vec![], renamed: vec![] };
+            let plain = Region::new(None, vec![], vec![]);
             for line in region.lines.iter().take(MAX_LINES) {
                 for (span, bytes) in written(&named, line, &plain, *language) {
                     let start = text[..span.start].rfind('\n').map_or(0, |i| i + 1);

@@ -6,16 +6,20 @@
 //! an entry of an argument, `T[0, 3]`, is the entry of the pose.
 
 mod computed;
+mod degrees;
 mod forces;
 mod spelling;
 
 use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
 pub(super) use computed::computed;
+pub(super) use degrees::Conversions;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
 pub(super) use forces::{Forces, forces};
-use spelling::{branches, defines, is_factor_of_root, renamed, roots, spelled, squeezed};
+use spelling::{
+    branches, cleared, defines, is_factor_of_root, renamed, roots, spelled, squeezed, statements_of,
+};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -35,7 +39,8 @@ pub(super) struct Scripts {
 /// Functions by which inverse formulas are told.
 const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
 /// Modules whose names stand before functions.
-pub(super) const MODULES: [&str; 8] = ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp.", "std::"];
+pub(super) const MODULES: [&str; 9] =
+    ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp.", "std::", "Math."];
 /// Functions that formulas have.
 const KNOWN: [&str; 30] = [
     "sin", "cos", "tan", "sqrt", "atan2", "arctan2", "acos", "asin", "atan", "arccos", "arcsin", "arctan",
@@ -58,6 +63,15 @@ struct Region {
     lines: Vec<Line>,
     /// `px`, `py`, `pz` that are another point's from here on: `px = px - d6*az`.
     renamed: Vec<String>,
+    /// Constants that turn degrees into radians, and back.
+    conversions: Conversions,
+}
+
+impl Region {
+    fn new(function: Option<Range<usize>>, parameters: Vec<String>, signs: Vec<String>) -> Self {
+        let conversions = Conversions::default();
+        Region { function, parameters, signs, lines: vec![], renamed: vec![], conversions }
+    }
 }
 
 /// A statement `name = formula`, or several as a tuple.
@@ -86,6 +100,7 @@ pub(super) fn inverse(
     let (mut is_any, mut unread, mut posed) = (false, vec![], vec![]);
     for (span, language) in programs {
         let all = regions(text, span, *language);
+        let conversions = Conversions::of(text, span, is_joint);
         // Numbers that the program gives names beside the functions.
         let mut own: Vec<String> =
             all.iter().take(1).flat_map(|r| &r.lines).flat_map(|l| &l.parts).map(|p| p.0.clone()).collect();
@@ -93,6 +108,7 @@ pub(super) fn inverse(
             let defines = text[span.clone()].lines().filter_map(|l| l.trim_start().strip_prefix("#define "));
             own.extend(defines.filter_map(|l| l.split_whitespace().next()).map(String::from));
         }
+        own.retain(|name| !conversions.names().any(|c| c == name));
         let functions: Vec<Range<usize>> = all.iter().filter_map(|r| r.function.clone()).collect();
         for region in all {
             let solves = |line: &Line| {
@@ -127,16 +143,22 @@ pub(super) fn inverse(
             let factors: Vec<String> = parameters.filter(|p| is_factor_of_root(&body, p)).cloned().collect();
             let mut region = region;
             region.signs.extend(factors);
+            if !conversions.is_empty() && !conversions.hold_in(text, &region, is_joint) {
+                // Some angles are in degrees and others are not, or it is not known which.
+                let of = |l: &Line| {
+                    (l.span.start..l.end, l.parts.first().map(|p| p.0.clone()).unwrap_or_default())
+                };
+                unread.extend(region.lines.iter().map(of));
+                cleared(&mut kept, region.function);
+                continue;
+            }
+            region.conversions = conversions.clone();
             // What goes by vectors and matrices is followed as a program.
             let mut known = region.parameters.clone();
             known.extend(poses(text, &region.lines));
-            let telling = Region {
-                parameters: known,
-                lines: vec![],
-                function: None,
-                signs: region.signs.iter().filter(|n| !is_known(n)).cloned().collect(),
-                renamed: vec![],
-            };
+            let signs = region.signs.iter().filter(|n| !is_known(n)).cloned().collect();
+            let conversions = conversions.clone();
+            let telling = Region { conversions, ..Region::new(None, known, signs) };
             let mut lost: BTreeSet<String> = BTreeSet::new();
             let is_cut = |line: &Line, lost: &mut BTreeSet<String>| {
                 line.is_lost(text, &telling, *language, lost) && line.parts.iter().any(|p| is_joint(&p.0))
@@ -164,9 +186,7 @@ pub(super) fn inverse(
             let has_variants = region.lines.iter().flat_map(|l| &l.parts).any(is_variant);
             if has_own || has_variants || region.lines.iter().filter(|l| is_cut(l, &mut lost)).count() > 0 {
                 posed.push(whole);
-                if let Some(function) = region.function {
-                    kept[function].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
-                }
+                cleared(&mut kept, region.function);
                 continue;
             }
             region.parameters.extend(poses(text, &region.lines));
@@ -195,9 +215,7 @@ pub(super) fn inverse(
                     alone[k][span].copy_from_slice(&bytes);
                 }
             }
-            if let Some(function) = region.function {
-                kept[function].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
-            }
+            cleared(&mut kept, region.function);
         }
     }
     if !is_any {
@@ -233,8 +251,7 @@ fn says_nothing(name: &str, formula: &str) -> bool {
 
 /// The functions of a program, and what stands outside of them.
 fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
-    let mut found =
-        vec![Region { function: None, parameters: vec![], signs: vec![], lines: vec![], renamed: vec![] }];
+    let mut found = vec![Region::new(None, vec![], vec![])];
     // The function that is open, and how far it is set in.
     let mut open: Option<(usize, usize)> = None;
     let (mut is_quoted, mut is_remark, mut is_other) = (false, false, false);
@@ -278,7 +295,7 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         {
             (braces, was_open) = (opened, source.contains('{'));
             let function = Some(line.start..line.end);
-            found.push(Region { function, parameters, signs, lines: vec![], renamed: vec![] });
+            found.push(Region::new(function, parameters, signs));
             open = Some((found.len() - 1, indent));
             continue;
         }
@@ -293,7 +310,7 @@ fn regions(text: &str, span: &Range<usize>, language: Dialect) -> Vec<Region> {
         if trimmed.starts_with("else") || trimmed.starts_with("} else") {
             is_other = true;
         }
-        for part in statements_of(text, &line) {
+        for part in statements_of(text, &line, language) {
             let Some(new) = assigned(text, &part, next) else { continue };
             region.push(new, text, is_other);
             is_other = false;
@@ -372,25 +389,6 @@ fn sign_of_loop(line: &str) -> Option<String> {
     let plain = plain.trim_end_matches(':').trim_matches(['(', ')', '[', ']']).replace(".0", "");
     let is_sign = matches!(plain.trim_end_matches(','), "1,-1" | "-1,1" | "1-1" | "-11");
     is_sign.then(|| name.trim().to_string())
-}
-
-/// The statements of a line: what stands between semicolons.
-fn statements_of(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
-    let (mut depth, mut start, mut found) = (0_i32, line.start, vec![]);
-    for (i, c) in text[line.clone()].char_indices() {
-        match c {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            ';' | '{' | '}' if depth <= 0 => {
-                found.push(start..line.start + i);
-                start = line.start + i + 1;
-            }
-            _ => {}
-        }
-    }
-    found.push(start..line.end);
-    found.retain(|s| !text[s.clone()].trim().is_empty());
-    found
 }
 
 /// The parts between commas outside of brackets, without blanks around them.

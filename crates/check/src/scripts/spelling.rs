@@ -1,8 +1,15 @@
 //! Lines of programs as a document writes formulas.
 
+use super::degrees::without_factor;
 use super::{MODULES, Region, split};
 use denavit_reading::code::Dialect;
 use std::ops::Range;
+
+/// Writes blanks over a part of a text, if there is one.
+pub(super) fn cleared(text: &mut [u8], part: Option<Range<usize>>) {
+    let part = part.and_then(|p| text.get_mut(p)).unwrap_or_default();
+    part.iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
+}
 
 /// Blanks that say nothing left out.
 pub(super) fn squeezed(formula: &str) -> String {
@@ -66,6 +73,9 @@ pub(super) fn spelled(source: &str, region: &Region, language: Dialect) -> Strin
     }
     out = replaced(&out, "self.", "     ");
     out = unclipped(&out);
+    for name in region.conversions.names() {
+        out = without_factor(&out, name);
+    }
     for name in &region.signs {
         out = with_signs(&out, name);
     }
@@ -77,9 +87,15 @@ pub(super) fn spelled(source: &str, region: &Region, language: Dialect) -> Strin
             ("sqrtf(", "sqrt ("),
             ("atan2f(", "atan2 ("),
             ("acosf(", "acos ("),
+            ("asinf(", "asin ("),
+            ("atanf(", "atan ("),
+            ("M_PI_2", "(pi/2)"),
+            ("M_PI_4", "(pi/4)"),
         ] {
             out = replaced(&out, was, now);
         }
+        out = whole_words(&out, "M_PI", "  pi");
+        out = whole_words(&out, "PI", "pi");
     }
     for (was, now) in [
         ("atan2d(", "atan2 ("),
@@ -128,6 +144,36 @@ fn unclipped(text: &str) -> String {
     out
 }
 
+/// The statements of a line: what stands between semicolons.
+pub(super) fn statements_of(text: &str, line: &Range<usize>, language: Dialect) -> Vec<Range<usize>> {
+    // `double x = a, y = b`
+    let declares = |rest: &str| {
+        let rest = rest.trim_start().trim_start_matches(['*', '&']);
+        let name = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let behind = rest[name..].trim_start();
+        name > 0 && behind.starts_with('=') && !behind.starts_with("==")
+    };
+    let (mut depth, mut start, mut found) = (0_i32, line.start, vec![]);
+    for (i, c) in text[line.clone()].char_indices() {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            ';' | '{' | '}' if depth <= 0 => {
+                found.push(start..line.start + i);
+                start = line.start + i + 1;
+            }
+            ',' if depth <= 0 && language == Dialect::C && declares(&text[line.start + i + 1..line.end]) => {
+                found.push(start..line.start + i);
+                start = line.start + i + 1;
+            }
+            _ => {}
+        }
+    }
+    found.push(start..line.end);
+    found.retain(|s| !text[s.clone()].trim().is_empty());
+    found
+}
+
 /// A word replaced where no letter stands before it.
 fn replaced(text: &str, word: &str, now: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -138,6 +184,22 @@ fn replaced(text: &str, word: &str, now: &str) -> String {
         out += &rest[..i];
         out += if is_word { now } else { word };
         rest = &rest[i + word.len()..];
+    }
+    out + rest
+}
+
+/// A word replaced where it stands by itself.
+fn whole_words(text: &str, word: &str, now: &str) -> String {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(i) = rest.find(word) {
+        let behind = &rest[i + word.len()..];
+        let is_word =
+            !out.ends_with(is_part) && !rest[..i].ends_with(is_part) && !behind.starts_with(is_part);
+        out += &rest[..i];
+        out += if is_word { now } else { word };
+        rest = behind;
     }
     out + rest
 }
@@ -207,6 +269,8 @@ fn vector_of(name: &str) -> Option<&'static str> {
     match lower.trim_end_matches(['_', '0']) {
         "n" | "nvec" | "n_vec" | "normal" => Some("n"),
         "a" | "avec" | "a_vec" | "approach" => Some("a"),
+        // The centre of the wrist, where there is one.
+        "w" | "wc" | "w_c" | "pw" | "p_w" | "pwc" | "p_wc" | "wrist" | "p_wrist" => Some("w"),
         // Which direction of the hand, its name does not say.
         other if ["dir", "axis", "orient", "unit"].iter().any(|w| other.contains(w)) => None,
         _ => Some("p"),
@@ -225,7 +289,9 @@ fn with_fields(text: &str, region: &Region) -> String {
         let dot = [".", "->"].iter().find(|d| behind.starts_with(**d)).map_or(0, |d| d.len());
         let field = &behind[dot..];
         let field = &field[..field.find(|c| !is_part(c)).unwrap_or(field.len())];
-        let length = word.len() + dot + field.len();
+        // `p.x()` is a field, too.
+        let is_call = behind[dot + field.len()..].starts_with("()") && matches!(field, "x" | "y" | "z");
+        let length = word.len() + dot + field.len() + if is_call { 2 } else { 0 };
         if dot == 0 || field.is_empty() || word.starts_with(|c: char| c.is_ascii_digit()) {
             out += word;
             rest = behind;
@@ -308,13 +374,8 @@ mod tests {
 
     #[test]
     fn lines_of_programs_as_formulas() {
-        let region = Region {
-            function: None,
-            parameters: vec!["T".into(), "p".into(), "n".into(), "tool_dir".into()],
-            signs: vec!["s".into(), "elbow".into()],
-            lines: vec![],
-            renamed: vec![],
-        };
+        let names = |all: &[&str]| all.iter().map(ToString::to_string).collect::<Vec<String>>();
+        let region = Region::new(None, names(&["T", "p", "n", "tool_dir"]), names(&["s", "elbow"]));
         for (language, line, formula) in [
             (Dialect::Python, "np.sqrt(x**2 + y**2)", "   sqrt(x^ 2 + y^ 2)"),
             (Dialect::Python, "np.arctan2(s*np.sqrt(1 - D**2), D)", "   arctan2(±   sqrt(1 - D^ 2), D)"),
@@ -324,6 +385,7 @@ mod tests {
             (Dialect::C, "atan2(-n.y, p.x)", "atan2(-ny , px )"),
             (Dialect::C, "asin(tool_dir[0])", "asin(tool_dir[0])"),
             (Dialect::C, "asin(tool_dir.x)", "asin(tool_dir.x)"),
+            (Dialect::C, "atan2(p.y(), p.x())", "atan2(py   , px   )"),
             (Dialect::Matlab, "atan2(p(2), T(1,4)) .* c.^2", "atan2(py  , px    )  * c ^2"),
         ] {
             let found = spelled(line, &region, language);

@@ -411,8 +411,12 @@ impl Walk<'_> {
         for span in rest {
             sides.push((span.clone(), self.lexis.inverse_formula(self.text, span).ok()?));
         }
+        // What is made of letters that nothing gives a meaning is a value, too: of what is known there.
         let is_value = |syntax: &Syntax, span: &Range<usize>| {
-            has_inverse_function(syntax) || self.speaks_of_pose(span) || syntax.sign_choices() > 0
+            has_inverse_function(syntax)
+                || self.speaks_of_pose(span)
+                || syntax.sign_choices() > 0
+                || self.has_strange_components(syntax.value())
         };
         let is_number = |syntax: &Syntax| syntax.value().symbols().is_empty();
         if !sides.iter().any(|(span, syntax)| is_value(syntax, span)) || sides.iter().all(|s| is_number(&s.1))

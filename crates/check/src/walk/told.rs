@@ -7,7 +7,7 @@ use super::{Scalar, Walk};
 use crate::lexis::read;
 use denavit::description::{JointKind, Measure, Variable, read_value};
 use denavit_reading::code::Dialect;
-use denavit_symbolic::parse::SyntaxKind;
+use denavit_symbolic::parse::{SyntaxKind, subscript};
 use denavit_symbolic::vocabulary::plain_name;
 use denavit_symbolic::{Expr, Symbol};
 use std::ops::Range;
@@ -406,9 +406,9 @@ impl Walk<'_> {
     /// The symbol of a name as it is written, and the name without subscripts.
     fn named(&self, name: &str) -> (Option<Symbol>, String) {
         let letters = name.trim_matches(['*', '`']).replace("\\ell", "l").replace('ℓ', "l");
+        let letters = letters.replace("\\vartheta", "\\theta");
         let name = letters.as_str();
-        let plain: String =
-            name.chars().map(|c| denavit_symbolic::parse::subscript(c).unwrap_or(c)).collect();
+        let plain: String = name.chars().map(|c| subscript(c).unwrap_or(c)).collect();
         let found = self.lexis.names.lookup(name).or_else(|| self.lexis.names.lookup(&plain));
         (found.and_then(|e| e.as_symbol()), plain)
     }

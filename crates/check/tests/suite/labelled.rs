@@ -27,8 +27,8 @@ fn checked(label: &Value) -> Result<Checked, String> {
     let (format, language) = match name.rsplit('.').next() {
         Some("tex") => (Format::Latex, None),
         Some("py") => (Format::Markdown, Some(Dialect::Python)),
-        Some("m") => (Format::Markdown, Some(Dialect::Matlab)),
-        Some("c" | "cpp" | "ino") => (Format::Markdown, Some(Dialect::C)),
+        Some("m" | "jl") => (Format::Markdown, Some(Dialect::Matlab)),
+        Some("c" | "cpp" | "ino" | "js") => (Format::Markdown, Some(Dialect::C)),
         _ => (Format::Markdown, None),
     };
     let options = CheckOptions { language, ..CheckOptions::default() };

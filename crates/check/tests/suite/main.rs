@@ -10,6 +10,7 @@ mod given;
 mod hostile;
 mod inverse;
 mod labelled;
+mod languages;
 mod marking;
 mod meant_otherwise;
 mod mutations;

@@ -2,10 +2,11 @@
 
 use super::Dialect;
 use super::machine::Machine;
-use super::scalar::{Read, Scalar, Stop, combined, negated, operated, refuse, refuse_hint};
+use super::scalar::{Read, Scalar, Stop, applied, combined, negated, operated, refuse, refuse_hint};
 use super::tree::{Definition, Kind, Node, Op, Span, Suffix, SuffixKind, mentioned};
 use super::value::{Closure, Matrix, Object, Sort, each, inverse, object, product, side};
 use super::{builders, known};
+use denavit_symbolic::parse::Function;
 use denavit_symbolic::{Expr, Rational};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -106,6 +107,15 @@ impl<'a> Machine<'a> {
                         values = vec![one.clone(); count];
                     }
                     return Ok(Object::list(values));
+                }
+                // Of Julia.
+                Object::Path(path) if &*path == "matlab.sincos" && count == 2 => {
+                    let given = self.arguments(arguments)?;
+                    let [(value, place)] = self.positional(given, "sincos", &node.span)?;
+                    let angle = value.scalar(&place)?.clone();
+                    let sine = applied(Function::Sin, vec![angle.clone()], &mut self.budget, &node.span)?;
+                    let cosine = applied(Function::Cos, vec![angle], &mut self.budget, &node.span)?;
+                    return Ok(Object::list(vec![Object::Scalar(sine), Object::Scalar(cosine)]));
                 }
                 Object::Path(path) if &*path == "matlab.size" => return self.eval(node),
                 _ => {}

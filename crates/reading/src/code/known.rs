@@ -133,6 +133,7 @@ const MATLAB: &[&str] = &[
     "simplify",
     "sym",
     "deal",
+    "sincos",
     "numel",
     "length",
     "size",

@@ -25,6 +25,9 @@ impl<'a> Machine<'a> {
             (_, "matrix" | "mat" | "asmatrix") => Sort::NumpyMatrix,
             _ => Sort::Array,
         };
+        // Julia's `atan(y, x)`.
+        let is_of_both = name == "atan" && module == "matlab" && given.positional.len() == 2;
+        let name = if is_of_both { "atan2" } else { name };
         if let Some((f, in_degrees)) = function(name) {
             let [(value, place)] = self.positional(given, path, span)?;
             return self.each_entry(value, &place, |m, s| {

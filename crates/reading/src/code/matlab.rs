@@ -141,7 +141,9 @@ impl Parser<'_> {
             }
             "return" => {
                 self.at += 1;
-                StatementKind::Return(None)
+                // Of Julia: `return x, y`.
+                let is_bare = matches!(self.mark(), None | Some(Mark::Newline | Mark::Op(";" | ",")));
+                StatementKind::Return(if is_bare { None } else { Some(self.values_returned()?) })
             }
             "break" | "continue" => {
                 self.at += 1;
@@ -163,6 +165,19 @@ impl Parser<'_> {
             _ => self.matlab_assignment()?,
         };
         Ok(Statement { kind, span: self.since(start) })
+    }
+
+    /// `x, y` behind `return`.
+    fn values_returned(&mut self) -> Parsed<Node> {
+        let start = self.at;
+        let mut parts = vec![self.expression()?];
+        while self.eat(",") {
+            parts.push(self.expression()?);
+        }
+        Ok(match <[Node; 1]>::try_from(parts) {
+            Ok([one]) => one,
+            Err(parts) => self.node(Kind::Tuple(parts), start),
+        })
     }
 
     fn syms(&mut self) -> Parsed<StatementKind> {

@@ -413,7 +413,7 @@ fn arguments<'a>(
     for p in &d.parameters {
         match (machine.names)(&p.name) {
             Some(meaning) => {
-                has_joint |= machine.joints.contains(&meaning);
+                has_joint |= machine.joints.iter().any(|q| is_angle_of(meaning, *q));
                 slots.insert(p.name.as_str(), Object::Scalar(Scalar::of(meaning, &p.span)));
             }
             None if p.default.is_none() => unknown.push(p),
@@ -422,7 +422,7 @@ fn arguments<'a>(
     }
     // Beside joints as many more as there are: how fast they move.
     let known: Vec<Expr> = d.parameters.iter().filter_map(|p| (machine.names)(&p.name)).collect();
-    let takes_all = || machine.joints.iter().all(|q| known.contains(q));
+    let takes_all = || machine.joints.iter().all(|q| known.iter().any(|e| is_angle_of(*e, *q)));
     let rate = |q: &Expr| (machine.names)(&format!("dot{}", q.as_symbol()?.name()));
     let rates: Option<Vec<Expr>> = machine.joints.iter().map(rate).collect();
     if !unknown.is_empty()
@@ -481,6 +481,12 @@ fn arguments<'a>(
         }
     }
     Ok(slots)
+}
+
+/// True for a joint, and for one in degrees.
+fn is_angle_of(meaning: Expr, joint: Expr) -> bool {
+    meaning == joint
+        || matches!(meaning.node(), denavit_symbolic::Node::Mul(a, b) if a == joint || b == joint)
 }
 
 /// What a vector beside that of all joints is by its name: the rates of these, or the components of a force.

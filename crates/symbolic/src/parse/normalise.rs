@@ -59,8 +59,8 @@ const COMMANDS: &[(&str, char)] = &[
 
 /// LaTeX commands for a word of several letters.
 const WORDS: &[&str] = &[
-    "cos", "sin", "tan", "tg", "arccos", "arcsin", "arctan", "arctg", "acos", "asin", "atan", "deg", "rad",
-    "mm", "cm",
+    "cos", "sin", "sen", "tan", "tg", "arccos", "arcsin", "arcsen", "arctan", "arctg", "acos", "asin",
+    "atan", "deg", "rad", "mm", "cm",
 ];
 
 /// LaTeX commands that only change the looks, with an argument in braces, and without one.

@@ -212,8 +212,9 @@ fn findings<'a>(notes: impl Iterator<Item = &'a Note>) -> Vec<Diagnostic> {
 fn language_of(name: &str) -> Option<Dialect> {
     match Path::new(name).extension()?.to_str()? {
         "py" => Some(Dialect::Python),
-        "m" => Some(Dialect::Matlab),
-        "c" | "h" | "cpp" | "cc" | "hpp" | "ino" => Some(Dialect::C),
+        // Julia is read as MATLAB, JavaScript as C.
+        "m" | "jl" => Some(Dialect::Matlab),
+        "c" | "h" | "cpp" | "cc" | "hpp" | "ino" | "js" | "mjs" | "ts" => Some(Dialect::C),
         _ => None,
     }
 }

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod blocks;
+mod commas;
 mod tokens;
 
 use super::Dialect;
@@ -281,7 +282,7 @@ impl Writer {
             }
             _ => {}
         }
-        if self.name(self.at) == Some("for") && self.counted_loop() {
+        if self.name(self.at) == Some("for") && self.counted_loop() || self.comma_initialised() {
             return;
         }
         match self.name(self.at) {
@@ -463,7 +464,7 @@ impl Writer {
             self.at += 1;
             return;
         };
-        if name == "std" && self.op(self.at + 1) == "::" {
+        if name == "std" && self.op(self.at + 1) == "::" || name == "Math" && self.op(self.at + 1) == "." {
             self.at += 2;
             return;
         }
@@ -472,7 +473,10 @@ impl Writer {
             let name = if is_own { field.to_string() } else { self.field(&name, field) };
             let span = token.span.start..self.tokens[self.at + 2].span.end;
             self.out.push(Token { mark: Mark::Name(name), span, is_apart: token.is_apart });
-            self.at += 3;
+            // `p.x()` is a field, too.
+            let is_component = matches!(self.name(self.at + 2), Some("x" | "y" | "z"));
+            let is_call = is_component && self.op(self.at + 3) == "(" && self.op(self.at + 4) == ")";
+            self.at += if is_call { 5 } else { 3 };
             return;
         }
         let plain = name.strip_suffix('f').filter(|n| {

@@ -136,6 +136,8 @@ fn digits(text: &str) -> usize {
 impl Measures for Measure<'_> {
     fn word(&mut self, word: &str, span: Range<usize>, context: Context) -> Result<(Expr, bool), ParseError> {
         let name = plain(word, self.style.document);
+        // As programs spell it.
+        let name = if matches!(word, "PI" | "M_PI") { "pi".to_string() } else { name };
         match name.as_str() {
             "pi" => return Ok((Expr::pi(), self.quantity(context) == Quantity::Angle)),
             "inf" | "nan" | "NaN" | "infinity" | "Inf" | "Infinity" => {

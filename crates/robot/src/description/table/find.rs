@@ -49,6 +49,10 @@ const MAX_COLUMNS: usize = 600;
 
 /// All grids of a text in their order.
 pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
+    let drawn = with_plain_bars(text);
+    let text = drawn.as_deref().unwrap_or(text);
+    let open = without_lone_bars(text).filter(|_| matches!(kind, TableKind::Markdown));
+    let text = open.as_deref().unwrap_or(text);
     let mut found = match kind {
         TableKind::Markdown => {
             let mut grids = blocks(text, Separator::Pipe, false);
@@ -77,6 +81,44 @@ pub(super) fn grids(text: &str, kind: TableKind) -> Vec<Grid> {
     found.retain(|g| g.rows.iter().all(|r| r.len() <= MAX_COLUMNS));
     found.sort_by_key(|g| g.span.start);
     found
+}
+
+/// A text with `|` for bars that are drawn, `│`, byte for byte; nothing for other texts.
+fn with_plain_bars(text: &str) -> Option<String> {
+    const BARS: [char; 3] = ['│', '┃', '║'];
+    let plain = |text: &str| BARS.iter().fold(text.to_string(), |t, bar| t.replace(*bar, "|  "));
+    text.contains(BARS).then(|| plain(text))
+}
+
+/// A text with blanks for the one bar behind the number of each row, `i | a  alpha  d  theta`, byte for byte; nothing for other texts.
+fn without_lone_bars(text: &str) -> Option<String> {
+    let mut bytes = text.as_bytes().to_vec();
+    let (mut is_open, mut is_any) = (false, false);
+    for span in lines(text) {
+        let line = uncommented(text, span.clone());
+        let Some(bar) = text[line.clone()].find('|').map(|i| line.start + i) else {
+            // A rule below the head.
+            is_open &= is_line(&text[line]);
+            continue;
+        };
+        let (number, cells) = (text[line.start..bar].trim(), split_blanks(text, bar + 1..line.end, None));
+        let is_lone = !text[bar + 1..line.end].contains('|') && number.len() <= 8;
+        let letters = cells.iter().filter(|c| column(&c.text).role.is_letter()).count();
+        let is_head = letters >= 4 && cells.len() == letters && column(number).role == Role::Index;
+        let is_row = is_open && cells.len() >= 4 && !number.is_empty() && is_numbered(number);
+        is_open = is_lone && (is_head || is_row);
+        if is_open {
+            bytes[bar] = b' ';
+            is_any = true;
+        }
+    }
+    if is_any { String::from_utf8(bytes).ok() } else { None }
+}
+
+/// True for a line that is drawn: `-----+----`.
+fn is_line(line: &str) -> bool {
+    let line = line.trim();
+    line.len() > 2 && line.chars().all(|c| "-= +_─┼═╪".contains(c))
 }
 
 /// The lines of a text with their places, without the line ends.
@@ -172,7 +214,7 @@ fn headed(text: &str, separator: Separator) -> Vec<Grid> {
         }
         let grid = grids.last_mut().filter(|_| open);
         if let Some(grid) = grid {
-            if line.len() > 2 && line.chars().all(|c| matches!(c, '-' | '=' | ' ' | '+' | '_' | '─')) {
+            if is_line(line) {
                 continue;
             }
             let width = grid.rows.first().map_or(0, Vec::len);
@@ -286,8 +328,15 @@ fn behind_index(text: &str, span: Range<usize>) -> Range<usize> {
     if is_index { span.end - rest.len()..span.end } else { span }
 }
 
-/// A line without the remark in brackets that stands apart behind it: `3   q3   0   l3   0     (mm)`.
+/// A line without the remark in brackets, or behind an arrow, that stands apart behind it: `3   q3   0   l3   0     (mm)`,
+/// `4   -q2-q3   0   a4   0    <- passive`.
 fn before_remark(text: &str, span: Range<usize>) -> Range<usize> {
+    const ARROWS: [&str; 5] = ["  <-", "  ←", "  //", "  # ", "  ! "];
+    let arrow = ARROWS.iter().filter_map(|a| text[span.clone()].find(a)).min();
+    let span = match arrow.filter(|at| !text[span.start..span.start + at].trim().is_empty()) {
+        Some(at) => span.start..span.start + at,
+        None => span,
+    };
     let line = text[span.clone()].trim_end();
     let open = match line.chars().next_back() {
         Some(')') => "  (",
@@ -304,7 +353,10 @@ fn before_words(text: &str, cell: &GridCell) -> GridCell {
     let shown = cell.text.as_str();
     let Some(at) = shown.find("  ") else { return cell.clone() };
     let word: String = shown[at..].trim_start().chars().take_while(|c| c.is_alphabetic()).collect();
-    let is_word = word.chars().count() > 2 && unit_named(&word).is_none();
+    // `0      (prismatic, d3 > 0)`
+    let is_remark = shown[at..].trim_start().starts_with('(') && shown.ends_with(')')
+        || shown[at..].trim_start().starts_with(['←', '<']);
+    let is_word = word.chars().count() > 2 && unit_named(&word).is_none() || is_remark;
     match is_word && text.get(cell.span.clone()).is_some_and(|own| own == shown) {
         true => GridCell::of(text, cell.span.start..cell.span.start + at),
         false => cell.clone(),
@@ -414,7 +466,7 @@ fn is_framed(line: &str) -> bool {
 
 /// `+---+-------+`, `---+-------`
 fn is_frame(line: &str) -> bool {
-    let is_open = line.starts_with('-') && line.contains('+') && line.len() > 8;
+    let is_open = line.starts_with(['-', '─', '═']) && line.contains(['+', '┼', '╪']) && line.len() > 8;
     line.len() > 4
         && (is_open || line.starts_with(['+', '├', '┌', '└', '╞']))
         && line.chars().all(|c| {

@@ -5,6 +5,7 @@ use super::read::{ReadRow, TableCell};
 use crate::description::cell::name_of;
 use crate::description::diagnostic::Diagnostics;
 use crate::description::{Convention, JointKind};
+use std::ops::Range;
 
 /// Longer tables are not searched for variables with names of their own.
 const MOST_BY_WORDS: usize = 64;
@@ -35,17 +36,22 @@ pub(super) fn joints(
 ) -> Vec<Joint> {
     let starred = rows.iter().any(|r| r.cells().iter().any(|c| c.star));
     let mut joints: Vec<Joint> = vec![];
+    let mut by_row = Diagnostics::default();
     for row in rows {
-        let found = joint(row, convention.length_z(), starred, &joints, out);
+        let found = joint(row, convention.length_z(), starred, &joints, &mut by_row);
         joints.push(found.unwrap_or(Joint::Fixed));
     }
-    if !starred && let Some(names) = counted_apart(rows, &joints) {
-        for (joint, name) in joints.iter_mut().zip(names) {
-            if let Some(name) = name {
-                *joint = Joint::Moves(JointKind::Revolute, Some(name));
-            }
+    let counted = counted_apart(rows, &joints).filter(|_| !starred).unwrap_or_default();
+    for (joint, name) in joints.iter_mut().zip(&counted) {
+        if let Some(name) = name {
+            *joint = Joint::Moves(JointKind::Revolute, Some(name.clone()));
         }
     }
+    // What was said of the length of a row whose angle turns does not hold.
+    let is_of = |row: &ReadRow, span: &Range<usize>| row.z.cell.span == *span;
+    let is_turning =
+        |span: &Range<usize>| rows.iter().zip(&counted).any(|(row, name)| name.is_some() && is_of(row, span));
+    by_row.list().iter().filter(|f| !is_turning(&f.span)).for_each(|f| out.add(f.clone()));
     check_owners(rows, &joints, convention.length_z(), out);
     let is_silent = rows.len() <= MOST_BY_WORDS
         && !starred
@@ -84,8 +90,10 @@ fn counted_apart(rows: &[ReadRow], joints: &[Joint]) -> Option<Vec<Option<String
         if says_what_moves(row) {
             return None;
         }
+        // `-q2-q3`: the row follows joints before it.
+        let is_known = |name: &String| names.iter().flatten().any(|n| n == name);
         let name = match &row.theta.cell.symbols[..] {
-            [] => {
+            all if all.iter().all(|s| is_known(&s.0)) && row.theta.cell.expr.as_symbol().is_none() => {
                 names.push(None);
                 continue;
             }
@@ -103,7 +111,8 @@ fn counted_apart(rows: &[ReadRow], joints: &[Joint]) -> Option<Vec<Option<String
     // What slides by the number of its row counts as all joints do.
     let slides = |j: &Joint| matches!(j, Joint::Moves(JointKind::Prismatic, Some(n)) if n.ends_with(|c: char| c.is_ascii_digit()));
     let is_angle = stem.is_some_and(|s| matches!(s, "theta" | "t" | "th" | "phi" | "q"));
-    (is_angle && count > 1 && !is_own && !joints.iter().any(slides)).then_some(names)
+    let is_slide = joints.iter().zip(&names).any(|(j, name)| name.is_none() && slides(j));
+    (is_angle && count > 1 && !is_own && !is_slide).then_some(names)
 }
 
 /// The letter of a joint that turns, without its number.
