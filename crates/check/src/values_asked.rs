@@ -26,6 +26,8 @@ pub struct Answered {
     pub slip: Option<ValueSlip>,
     /// What is right, with its unit.
     pub right: String,
+    /// As how many formulas it counts.
+    pub counts: usize,
 }
 
 /// How a value differs from the right one.

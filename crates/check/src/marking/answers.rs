@@ -176,8 +176,14 @@ fn judged(
         let slip = slip(&wanted[k].1, &wanted[k].2.unit, &given);
         taken[k] |= slip.is_none() || in_order;
         let right = format!("{} {}", wanted[k].2.value, wanted[k].2.unit).trim().to_string();
-        let answered =
-            Answered { of: [item_at, wanted[k].0], span: statement.span.clone(), name, slip, right };
+        let answered = Answered {
+            of: [item_at, wanted[k].0],
+            span: statement.span.clone(),
+            name,
+            slip,
+            right,
+            counts: 1,
+        };
         out.push((answered, statement.sides.len() == 2));
     }
     out
@@ -324,7 +330,7 @@ fn term(values: &[[f64; 2]], samples: &[f64], room: f64) -> Option<usize> {
 
 impl Checked {
     /// Takes claims out; those on which others rest as the cause of an error stay.
-    fn leave_out(&mut self, gone: &[bool]) {
+    pub(super) fn leave_out(&mut self, gone: &[bool]) {
         let mut causes: BTreeSet<usize> = BTreeSet::new();
         for (claim, gone) in self.claims.iter().zip(gone) {
             for entry in claim.entries.iter().filter(|_| !gone) {

@@ -1,11 +1,17 @@
 //! Points for what a document shows, by a teacher's rubric: what was not judged is not wrong, it is marked by hand.
 
 mod answers;
+mod configurations;
+mod flat;
+mod meant;
+mod singular;
 
 use super::outcome::{Checked, Claim, Entry, Standing};
 use super::values_asked::{Answer, ValueSlip};
 use denavit_reading::document::Format;
 use denavit_symbolic::greek;
+use meant::Belongs;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Which claims count how much.
@@ -21,8 +27,71 @@ pub struct Rubric {
     pub items: Vec<Item>,
 }
 
-/// One item of a rubric.
+/// What an item asks for: what answers it is found by that, whatever it is called.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Subject {
+    /// The transforms of the links.
+    Links,
+    /// The pose of the tool in the base.
+    Pose,
+    /// A determinant.
+    Determinant,
+    /// Where the arm is singular.
+    Singularities,
+    /// The joints for a pose.
+    Joints,
+}
+
+impl Subject {
+    /// All of them.
+    pub const ALL: [Subject; 5] =
+        [Subject::Links, Subject::Pose, Subject::Determinant, Subject::Singularities, Subject::Joints];
+
+    /// Its word in a rubric.
+    pub fn name(self) -> &'static str {
+        match self {
+            Subject::Links => "links",
+            Subject::Pose => "pose",
+            Subject::Determinant => "determinant",
+            Subject::Singularities => "singularities",
+            Subject::Joints => "joints",
+        }
+    }
+}
+
+/// Whether an item asks for formulas or for numbers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Form {
+    /// Formulas in the joints.
+    Formulas,
+    /// Numbers at a configuration.
+    Numbers,
+}
+
+impl Form {
+    /// Both.
+    pub const ALL: [Form; 2] = [Form::Formulas, Form::Numbers];
+
+    /// Its word in a rubric.
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::Formulas => "formulas",
+            Form::Numbers => "numbers",
+        }
+    }
+}
+
+/// A configuration that an item asks for, in numbers.
 #[derive(Clone, PartialEq, Debug)]
+pub struct Asked {
+    /// The joints, radians and metres.
+    pub q: Vec<f64>,
+    /// How far the digits of what is given let each of them be off.
+    pub within: Vec<f64>,
+}
+
+/// One item of a rubric.
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Item {
     /// What it is called.
     pub name: String,
@@ -36,6 +105,14 @@ pub struct Item {
     pub formulas: usize,
     /// Values that it asks for, each a formula of a full answer.
     pub answers: Vec<Answer>,
+    /// What it asks for; where it does not say it, what its left sides name.
+    pub about: Vec<Subject>,
+    /// Formulas or numbers alone; nothing where either will do.
+    pub form: Option<Form>,
+    /// All configurations for the poses that are given; each joint of them is a formula of a full answer.
+    pub configurations: Vec<Asked>,
+    /// All values of joints at which the arm is singular: the joint (a number from 1), and its value as a formula.
+    pub zeros: Vec<(usize, String)>,
 }
 
 /// What a document earns, item by item.
@@ -58,6 +135,10 @@ pub struct Mark {
     pub others: Vec<(String, Standing)>,
     /// Values that are wrong, with their slips and what is right.
     pub slips: Vec<(String, ValueSlip, String)>,
+    /// Claims whose value is right, and whose name says that it is something else.
+    pub named_otherwise: Vec<String>,
+    /// Of the configurations that are asked for, how many are there and right, and how many there are.
+    pub configurations: Option<[usize; 2]>,
     /// What is to be marked by hand.
     pub by_hand: Vec<Range<usize>>,
 }
@@ -83,22 +164,41 @@ impl Rubric {
     /// Holds a document against the values that the items ask for; what it says of them is judged by that alone.
     pub fn answer(&self, text: &str, format: Format, checked: &mut Checked) {
         answers::answer(self, text, format, checked);
+        configurations::answer(self, text, format, checked);
+        singular::answer(self, text, checked);
+        checked.answered.sort_by_key(|a| (a.span.start, a.of));
     }
 
     /// What a document earns; `text` is the document. Where items ask for values, [`answer`](Self::answer) goes before.
     pub fn mark(&self, text: &str, checked: &Checked) -> Sheet {
+        let belonging = meant::belonging(&self.items, text, checked);
         let all = self.items.iter().enumerate();
-        Sheet { marks: all.map(|(k, item)| self.mark_item(k, item, text, checked)).collect() }
+        Sheet { marks: all.map(|(k, item)| self.mark_item(k, item, text, checked, &belonging)).collect() }
     }
 
-    fn mark_item(&self, at: usize, item: &Item, text: &str, checked: &Checked) -> Mark {
+    fn mark_item(
+        &self,
+        at: usize,
+        item: &Item,
+        text: &str,
+        checked: &Checked,
+        belonging: &[Vec<Option<Belongs>>],
+    ) -> Mark {
         let mut mark = Mark::default();
-        let patterns: Vec<String> = item.claims.iter().map(|c| plain(c)).collect();
+        let patterns = item.claims.iter().map(|c| plain(c));
         let values = item.answers.iter().flat_map(|a| &a.names).map(|name| plain(name));
-        let lines: Vec<String> = patterns.iter().cloned().chain(values).collect();
-        let is_meant = |name: &str| patterns.iter().any(|pattern| fits(pattern, &plain(name)));
+        let lines: Vec<String> = patterns.chain(values).collect();
         let mut shares: Vec<Option<f64>> = vec![];
-        for claim in checked.claims.iter().filter(|c| is_meant(&c.name)) {
+        for (claim, belongs) in checked.claims.iter().zip(belonging) {
+            let Some(belongs) = belongs[at] else { continue };
+            if belongs == Belongs::NamedOtherwise {
+                // Each entry is proved to be that of the matrix that is asked for.
+                let count = counted_of_value(text, claim);
+                shares.extend(vec![Some(1.0); count]);
+                mark.right[0] += count;
+                mark.named_otherwise.push(claim.name.clone());
+                continue;
+            }
             for entry in counted(text, claim) {
                 let share = self.share(entry.finding.standing());
                 if share.is_none() {
@@ -112,12 +212,23 @@ impl Rubric {
             }
         }
         for answered in checked.answered.iter().filter(|a| a.of[0] == at) {
-            shares.push(Some(if answered.slip.is_none() { 1.0 } else { 0.0 }));
-            mark.right[0] += usize::from(answered.slip.is_none());
+            shares.extend(vec![Some(if answered.slip.is_none() { 1.0 } else { 0.0 }); answered.counts]);
+            if answered.slip.is_none() {
+                mark.right[0] += answered.counts;
+            }
             if let Some(slip) = answered.slip {
                 mark.others.push((answered.name.clone(), Standing::Wrong));
                 mark.slips.push((answered.name.clone(), slip, answered.right.clone()));
             }
+        }
+        if !item.configurations.is_empty() {
+            let found: BTreeSet<usize> = checked
+                .answered
+                .iter()
+                .filter(|a| a.of[0] == at && a.slip.is_none() && a.of[1] >= item.answers.len())
+                .map(|a| a.of[1])
+                .collect();
+            mark.configurations = Some([found.len(), item.configurations.len()]);
         }
         // A line that was passed over and names what is asked for.
         for line in &checked.unjudged {
@@ -129,18 +240,29 @@ impl Rubric {
                 shares.push(None);
             }
         }
+        let full = item.full();
+        // What belongs to no item, and may be what is missing here.
+        if shares.len() < full.max(1) {
+            let mut missing = full.max(1) - shares.len();
+            for (claim, belongs) in checked.claims.iter().zip(belonging) {
+                let is_free = belongs.iter().all(Option::is_none);
+                if missing > 0 && is_free && meant::may_be_meant(item, claim, checked) {
+                    let count = counted(text, claim).len().min(missing);
+                    missing -= count;
+                    shares.extend(vec![None; count]);
+                    mark.by_hand.push(claim.span.clone());
+                    mark.others.push((claim.name.clone(), Standing::Undecided));
+                }
+            }
+        }
         mark.right[1] = shares.len();
-        let count = shares.len().max(item.formulas + item.answers.len()).max(1) as f64;
+        let count = shares.len().max(full).max(1) as f64;
         // A sum of nothing is -0.
         let certain = 0.0 + shares.iter().flatten().sum::<f64>();
         let open = shares.iter().filter(|s| s.is_none()).count() as f64;
         let [certain, open] = match item.whole {
             false => [certain, open],
-            true if shares.len() < item.formulas + item.answers.len()
-                || shares.iter().flatten().any(|s| *s < 1.0) =>
-            {
-                [0.0, 0.0]
-            }
+            true if shares.len() < full || shares.iter().flatten().any(|s| *s < 1.0) => [0.0, 0.0],
             true if open > 0.0 => [0.0, count],
             true => [certain, 0.0],
         };
@@ -159,6 +281,19 @@ impl Rubric {
             Standing::Undecided | Standing::Unreadable => None,
         }
     }
+}
+
+impl Item {
+    /// How many formulas a full answer has.
+    fn full(&self) -> usize {
+        self.formulas + self.answers.len()
+    }
+}
+
+/// How many entries count of a matrix that is wrong by its name alone.
+fn counted_of_value(text: &str, claim: &Claim) -> usize {
+    let printed = |e: &&Entry| text.get(e.span.clone()).unwrap_or_default().trim();
+    claim.entries.iter().filter(|e| e.place.is_some() && !matches!(printed(e), "0" | "1")).count().max(1)
 }
 
 /// The formulas of a claim that count: of a matrix, not the zeros and ones that are right, unless there is nothing else.

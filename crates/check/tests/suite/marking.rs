@@ -1,6 +1,6 @@
 //! Points by a rubric.
 
-use denavit_check::marking::{Item, Mark, Rubric};
+use denavit_check::marking::{Asked, Form, Item, Mark, Rubric, Subject};
 use denavit_check::{Answer, CheckOptions, Standing, ValueSlip, check};
 use denavit_reading::document::Format;
 
@@ -12,7 +12,7 @@ fn mark(text: &str, claims: &[&str], whole: bool) -> Mark {
     let text = format!("{TABLE}{text}");
     let checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
     let claims = claims.iter().map(|c| (*c).to_string()).collect();
-    let items = vec![Item { name: "item".into(), claims, points: 12.0, whole, formulas: 0, answers: vec![] }];
+    let items = vec![Item { name: "item".into(), claims, points: 12.0, whole, ..Item::default() }];
     let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
     rubric.mark(&text, &checked).marks.remove(0)
 }
@@ -61,14 +61,8 @@ fn answered(text: &str, value: &str, unit: &str) -> Option<Result<(), ValueSlip>
     let text = format!("{TABLE}{text}");
     let mut checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
     let answer = Answer { names: vec!["tau1".into(), "q1t".into()], value: value.into(), unit: unit.into() };
-    let item = Item {
-        name: "item".into(),
-        claims: vec![],
-        points: 3.0,
-        whole: false,
-        formulas: 0,
-        answers: vec![answer],
-    };
+    let item =
+        Item { name: "item".into(), claims: vec![], points: 3.0, answers: vec![answer], ..Item::default() };
     let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items: vec![item] };
     rubric.answer(&text, Format::Markdown, &mut checked);
     let mark = rubric.mark(&text, &checked).marks.remove(0);
@@ -131,4 +125,124 @@ fn a_slide_with_the_other_sign_is_wrong() {
         checked.claims[0].standing()
     };
     assert_eq!([standing(""), standing("-")], [Standing::Equal, Standing::Wrong]);
+}
+
+/// The marks of a document for items that say what they ask for.
+fn marks(text: &str, items: Vec<Item>) -> Vec<Mark> {
+    let text = format!("{TABLE}{text}");
+    let mut checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
+    let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
+    rubric.answer(&text, Format::Markdown, &mut checked);
+    rubric.mark(&text, &checked).marks
+}
+
+fn item(about: Subject, form: Option<Form>, formulas: usize) -> Item {
+    Item { name: "item".into(), points: 12.0, about: vec![about], form, formulas, ..Item::default() }
+}
+
+const POSE: &str = "[C12, -S12, 0, a1 C1 + a2 C12; S12, C12, 0, a1 S1 + a2 S12; 0, 0, 1, 0; 0, 0, 0, 1]";
+
+#[test]
+fn a_pose_is_found_by_what_it_is() {
+    let asked = || vec![item(Subject::Pose, Some(Form::Formulas), 6), item(Subject::Links, None, 0)];
+    for name in ["T_02", "{}^0_2T", "T", "T = A_1 A_2", "A_1 A_2", "T_2^0", "T_{0E}", "T_{tool}", "M", "T_2"]
+    {
+        let found = marks(&format!("${name}$ = {POSE}"), asked());
+        assert_eq!((found[0].points, found[0].right), (12.0, [6, 6]), "{name}");
+        assert_eq!(found[1].right, [0, 0], "{name}");
+    }
+    // A slip costs its share, whatever the name is.
+    let slip = POSE.replace("a1 S1", "a1 C1");
+    for name in ["T_02", "T", "T_2^0"] {
+        let found = marks(&format!("${name}$ = {slip}"), asked());
+        assert_eq!((found[0].points, found[0].open), (10.0, 0.0), "{name}");
+    }
+    // A link is no pose.
+    let link = "$A_2$ = [C2, -S2, 0, a2 C2; S2, C2, 0, a2 S2; 0, 0, 1, 0; 0, 0, 0, 1]";
+    assert_eq!(marks(link, asked())[0].right, [0, 0]);
+}
+
+/// A name that is that of the inverse earns the points of its value, and it is said.
+#[test]
+fn a_pose_with_the_name_of_its_inverse_is_one() {
+    let text = format!("$T_0^2$ = {POSE}");
+    let found = marks(&text, vec![item(Subject::Pose, None, 6)]).remove(0);
+    assert_eq!((found.points, found.named_otherwise.len()), (12.0, 1), "{found:?}");
+}
+
+#[test]
+fn numbers_and_formulas_are_apart() {
+    let numbers = "With a1 = 1, a2 = 1 and θ1 = 0, θ2 = 90°:\n\n\
+                   T_02 = [0.000, -1.000, 0, 1.000; 1.000, 0.000, 0, 1.000; 0, 0, 1, 0; 0, 0, 0, 1]";
+    let asked = || {
+        let [formulas, numbers] = [Form::Formulas, Form::Numbers].map(|f| item(Subject::Pose, Some(f), 6));
+        vec![formulas, numbers]
+    };
+    let points = |text: &str| marks(text, asked()).iter().map(|m| m.points).collect::<Vec<f64>>();
+    assert_eq!(points(numbers), [0.0, 12.0]);
+    assert_eq!(points(&format!("T = {POSE}")), [12.0, 0.0]);
+}
+
+/// Both configurations of a pose, of which the second joint changes its sign.
+fn configurations() -> Item {
+    let asked = |degrees: [f64; 2]| Asked { q: degrees.map(f64::to_radians).to_vec(), within: vec![1e-4; 2] };
+    let configurations = vec![asked([30.0, 60.0]), asked([80.0, -60.0])];
+    Item { configurations, ..item(Subject::Joints, None, 4) }
+}
+
+#[test]
+fn configurations_are_marked_however_they_are_told() {
+    let points = |text: &str| {
+        let mark = marks(text, vec![configurations()]).remove(0);
+        (mark.points, mark.open, mark.configurations)
+    };
+    let all = (12.0, 0.0, Some([2, 2]));
+    for text in [
+        "θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = -60°",
+        "$\\theta_1 = 0.5236,\\ \\theta_2 = 1.0472$\n\n$\\theta_1 = 1.3963,\\ \\theta_2 = -1.0472$",
+        "q = (30°, 60°)\n\nq = (80°, -60°)",
+        "$q = (30^\\circ, 60^\\circ)$ or $q = (80^\\circ, -60^\\circ)$",
+        "q = (0.5236, 1.0472)\n\nq = (1.3963, -1.0472)",
+        "| # | θ1 | θ2 |\n|-|-|-|\n| 1 | 30° | 60° |\n| 2 | 80° | -60° |",
+        "| θ1 (rad) | θ2 (rad) |\n|-|-|\n| 1.3963 | -1.0472 |\n| 0.5236 | 1.0472 |",
+        "$q_1 = \\begin{pmatrix} 30^\\circ \\\\ 60^\\circ \\end{pmatrix}$, \
+         $q_2 = \\begin{pmatrix} 80^\\circ \\\\ -60^\\circ \\end{pmatrix}$",
+        "1. $\\theta_1 = \\pi/6$, $\\theta_2 = \\frac{\\pi}{3}$\n2. $\\theta_1 = 80°$, $\\theta_2 = -60°$",
+    ] {
+        assert_eq!(points(text), all, "{text}");
+    }
+    assert_eq!(points("θ1 = 30°, θ2 = 60°"), (6.0, 0.0, Some([1, 2])));
+    // Said twice, it counts once.
+    assert_eq!(points("θ1 = 30°, θ2 = 60°\n\nq = (30°, 60°)"), (6.0, 0.0, Some([1, 2])));
+    let wrong = marks("θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = 60°", vec![configurations()]).remove(0);
+    assert_eq!((wrong.points, wrong.slips.len()), (6.0, 1));
+    assert_eq!((wrong.slips[0].1, wrong.slips[0].2.as_str()), (ValueSlip::Sign, "(80°, -60°)"));
+    // Where none is right they may be no answer: by hand.
+    let none = points("θ1 = 31°, θ2 = 61.5°");
+    assert!(none.0 == 0.0 && none.1 > 0.0, "{none:?}");
+}
+
+#[test]
+fn singular_values_are_marked_however_they_are_told() {
+    let asked = || {
+        let zeros = vec![(2, "0".to_string()), (2, "pi".to_string())];
+        vec![Item { zeros, ..item(Subject::Singularities, None, 2) }]
+    };
+    for (text, points) in [
+        ("The arm is singular where sin(θ2) = 0.", 12.0),
+        ("The arm is singular for $\\theta_2 \\in \\{0, \\pi\\}$.", 12.0),
+        ("The arm is singular for $\\theta_2 = k\\pi$.", 12.0),
+        ("The arm is singular for θ2 = 0 or θ2 = 180°.", 12.0),
+        ("The arm is singular for $\\theta_2 = 0, \\pi$.", 12.0),
+        ("The arm is singular for θ2 = 0.", 6.0),
+        ("The arm is singular for θ2 = 90°.", 0.0),
+    ] {
+        let found = marks(text, asked()).remove(0);
+        assert_eq!((found.points, found.open), (points, 0.0), "{text}: {found:?}");
+    }
+    let determinant = || vec![item(Subject::Determinant, None, 1)];
+    for name in ["det J", "|J|", "\\det J", "D"] {
+        let found = marks(&format!("${name} = a_1 a_2 S_2$"), determinant()).remove(0);
+        assert!(found.points + found.open > 11.9, "{name}: {found:?}");
+    }
 }

@@ -97,6 +97,52 @@ const OTHERS: usize = 20;
 /// The most exercises of a series.
 const MOST: usize = 1000;
 
+/// Whether the first cell of a table is what its column holds.
+fn is_head(name: &str) -> bool {
+    let bare = name.trim_matches(['"', '\'', '#', ' ']).to_lowercase();
+    HEADS.contains(&bare.as_str())
+}
+
+/// What first columns of tables of students are called.
+const HEADS: [&str; 36] = [
+    "name",
+    "names",
+    "student",
+    "students",
+    "student name",
+    "student id",
+    "id",
+    "id number",
+    "user",
+    "username",
+    "login",
+    "uid",
+    "email",
+    "e-mail",
+    "email address",
+    "first name",
+    "firstname",
+    "last name",
+    "lastname",
+    "surname",
+    "full name",
+    "vorname",
+    "nachname",
+    "matrikelnummer",
+    "matrikelnr",
+    "matrikel",
+    "studierende",
+    "nom",
+    "prénom",
+    "étudiant",
+    "étudiants",
+    "nombre",
+    "apellido",
+    "apellidos",
+    "estudiante",
+    "alumno",
+];
+
 /// What the folders of a series are called.
 fn names(arguments: &ExerciseArguments) -> Result<Option<Vec<String>>, Failure> {
     let names: Vec<String> = match (&arguments.students, arguments.series) {
@@ -106,7 +152,16 @@ fn names(arguments: &ExerciseArguments) -> Result<Option<Vec<String>>, Failure> 
             // A table of students has them in its first column.
             let first =
                 |line: &str| line.split([',', ';', '\t']).next().unwrap_or_default().trim().to_string();
-            text.lines().map(first).filter(|name| !name.is_empty()).collect()
+            let text = text.trim_start_matches('\u{feff}');
+            let mut names: Vec<String> = text.lines().map(first).filter(|name| !name.is_empty()).collect();
+            if let Some(head) = names.first().filter(|name| is_head(name)) {
+                note(&format!(
+                    "note: {}: the first row, `{head}`, is a head and no student\n",
+                    file.display()
+                ));
+                names.remove(0);
+            }
+            names
         }
         (None, Some(n)) => {
             let width = n.to_string().len().max(2);

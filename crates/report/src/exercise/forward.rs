@@ -12,6 +12,7 @@ use denavit::description::JointKind;
 use denavit::forward::Reference;
 use denavit::inverse::JointSpace;
 use denavit::mechanism::{Robot, Walk};
+use denavit_check::marking::{Form, Subject};
 use denavit_symbolic::Expr;
 use denavit_symbolic::readable::settled;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -81,10 +82,11 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 4,
                 claims: link_claims,
                 formulas: if n > 1 { link_entries } else { 0 },
-                answers: vec![],
-                fields: vec![],
+                about: if n > 1 { vec![Subject::Links] } else { vec![] },
+                form: Some(Form::Formulas),
                 has_formulas: true,
                 answer: vec![links],
+                ..Task::default()
             },
             Task {
                 name: words.pose_title(),
@@ -92,10 +94,11 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 4,
                 claims: forward_claims,
                 formulas,
-                answers: vec![],
-                fields: vec![],
+                about: vec![Subject::Pose],
+                form: Some(Form::Formulas),
                 has_formulas: true,
                 answer: vec![forward],
+                ..Task::default()
             },
             Task {
                 name: words.numbers_title(),
@@ -103,10 +106,12 @@ pub(super) fn poses(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
                 points: 2 * all.len() as u32,
                 claims: ["T", "P", "x", "y", "z"].map(String::from).to_vec(),
                 formulas: entries_in_numbers,
-                answers: vec![],
+                about: vec![Subject::Pose],
+                form: Some(Form::Numbers),
                 fields,
                 has_formulas: false,
                 answer: vec![in_numbers],
+                ..Task::default()
             },
         ],
     })
@@ -157,10 +162,11 @@ pub(super) fn links(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             points: 2 * n as u32,
             claims: of_links(n, &names),
             formulas,
-            answers: vec![],
+            about: vec![Subject::Links],
             fields,
             has_formulas: true,
             answer: vec![answer],
+            ..Task::default()
         }],
     })
 }
@@ -230,10 +236,9 @@ pub(super) fn table(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoExe
             points: 2 * d.rows.len() as u32,
             claims: vec!["table".into(), "table*".into()],
             formulas: 1,
-            answers: vec![],
-            fields: vec![],
             has_formulas: true,
             answer: vec![answer],
+            ..Task::default()
         }],
     })
 }

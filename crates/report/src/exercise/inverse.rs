@@ -4,24 +4,34 @@ use super::NoExercise;
 use super::chosen::Chosen;
 use super::sheet::{Asked, Field, Ground, Task, claimed, quantity};
 use crate::document::{Block, Line, Math, Proof, Section, Sign};
-use crate::explain::{Explained, Explanation, Kind, Statement, uses_letters};
+use crate::explain::{Explained, Explanation, Statement, uses_letters};
 use crate::render::too_long;
 use crate::sections::{numbers, within_turns};
 use crate::words::ExerciseKind;
 use denavit::description::JointKind;
 use denavit::geometry::{Rotation, Transform, Vector};
 use denavit::inverse::{Goal, InverseKinematics, InverseModel, InverseOptions, Solution};
+use denavit::velocity::{Viewpoint, geometric, measures};
+use denavit_check::marking::{Asked as Configuration, Subject};
 use denavit_symbolic::readable::settled;
 use denavit_symbolic::{Expr, Symbol};
 use std::cmp::Ordering;
+use std::f64::consts::TAU;
 
 /// A pose with more configurations is not asked for.
 const MOST: usize = 16;
+
+/// Half a unit of the last digit of the numbers that are given, metres, and in the entries of a rotation, radians.
+const HALF: f64 = 5e-5;
+/// No pose is asked for at which that moves a joint by more, radians and metres.
+const SURE: f64 = 0.02;
 
 /// A pose with all its configurations.
 struct Solved {
     pose: Transform<f64>,
     solutions: Vec<Solution>,
+    /// How far the digits that are given let the joints of each be off.
+    within: Vec<Vec<f64>>,
 }
 
 /// The joints for poses: the formulas where there is a closed form, and all configurations in numbers.
@@ -54,11 +64,11 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
             && answer.families.is_empty()
             && (1..=MOST).contains(&answer.solutions.len())
             && single;
-        if serves {
-            let turned = answer.solutions.into_iter().map(|f| within_turns(f, &solver.space));
-            found.push(Solved { pose, solutions: turned.collect() });
-        }
-        serves
+        let within = if serves { within(&solver, &pose, &answer.solutions) } else { None };
+        let Some(within) = within else { return false };
+        let turned = answer.solutions.into_iter().map(|f| within_turns(f, &solver.space));
+        found.push(Solved { pose, solutions: turned.collect(), within });
+        true
     });
     let leaves_free = || {
         let model = InverseModel::derive(&s.description, &InverseOptions { goal, given: None });
@@ -99,7 +109,10 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
     Ok(Asked {
         given: vec![given],
         tasks: vec![Task {
-            name: words.configurations_title(),
+            name: match is_pose {
+                true => words.configurations_title(),
+                false => words.positions_title(),
+            },
             words: Line::new(match is_pose {
                 true => words.ask_configurations(all.len()),
                 false => words.ask_positions(all.len()),
@@ -107,10 +120,16 @@ fn solved(ground: &Ground, chosen: &mut Chosen, goal: Goal) -> Result<Asked, NoE
             points: 10,
             claims: ground.joints(),
             formulas: joints,
-            answers: vec![],
+            about: vec![Subject::Joints],
+            configurations: found
+                .iter()
+                .flat_map(|one| one.solutions.iter().zip(&one.within))
+                .map(|(f, within)| Configuration { q: f.q.clone(), within: within.clone() })
+                .collect(),
             fields,
             has_formulas: true,
             answer: answers,
+            ..Task::default()
         }],
     })
 }
@@ -123,29 +142,98 @@ fn fields(ground: &Ground, found: &[Solved]) -> Vec<Field> {
     for (k, one) in found.iter().enumerate() {
         let (pose, position) = (words.given_pose_title(k + 1), words.given_position_title(k + 1));
         let title = words.largest_of(if is_pose { &pose } else { &position });
-        let field = |label: String, value: f64, unit: &str| Field {
+        let field = |label: String, value: f64, unit: &str, within: f64| Field {
             group: title.clone(),
             label,
             value,
             unit: unit.into(),
+            within,
         };
-        fields.push(field("N".into(), one.solutions.len() as f64, ""));
+        fields.push(field("N".into(), one.solutions.len() as f64, "", 0.0));
         // What is equal but for rounding is equal.
         let rounded = |q: &[f64]| q.iter().map(|x| (x * 1e6).round()).collect::<Vec<f64>>();
         let last = one
             .solutions
             .iter()
-            .map(|f| &f.q)
-            .max_by(|a, b| rounded(a).partial_cmp(&rounded(b)).unwrap_or(Ordering::Equal));
-        for (x, v) in last.into_iter().flatten().zip(ground.setting.description.variables()) {
+            .zip(&one.within)
+            .max_by(|a, b| rounded(&a.0.q).partial_cmp(&rounded(&b.0.q)).unwrap_or(Ordering::Equal));
+        let Some((last, within)) = last else { continue };
+        for ((x, within), v) in last.q.iter().zip(within).zip(ground.setting.description.variables()) {
             let label = claimed(&Math::Expr(v.symbol.into()), &ground.names());
             fields.push(match v.kind {
-                JointKind::Revolute => field(label, x.to_degrees(), "°"),
-                JointKind::Prismatic => field(label, *x, "m"),
+                JointKind::Revolute => field(label, x.to_degrees(), "°", within.to_degrees()),
+                JointKind::Prismatic => field(label, *x, "m", *within),
             });
         }
     }
     fields
+}
+
+/// How far the digits that are given let the joints of each solution be off; nothing where that is far, or where it decides
+/// how many solutions there are.
+fn within(
+    solver: &InverseKinematics,
+    pose: &Transform<f64>,
+    solutions: &[Solution],
+) -> Option<Vec<Vec<f64>>> {
+    let all = match solver.goal {
+        Goal::Position => {
+            solutions.iter().map(|f| of_position(solver, pose, solutions.len(), &f.q)).collect()
+        }
+        _ => solutions.iter().map(|f| of_pose(solver, &f.q)).collect::<Option<Vec<Vec<f64>>>>(),
+    };
+    all.filter(|all| all.iter().flatten().all(|x| *x < SURE))
+}
+
+/// The sum of what half a unit of each coordinate does to the joints of a solution.
+fn of_position(
+    solver: &InverseKinematics,
+    pose: &Transform<f64>,
+    count: usize,
+    q: &[f64],
+) -> Option<Vec<f64>> {
+    let off = |other: &[f64]| -> Vec<f64> {
+        let joints = q.iter().zip(other).zip(&solver.space.is_angle);
+        let one = |((a, b), is_angle): ((&f64, &f64), &bool)| match is_angle {
+            true => (b - a) - TAU * ((b - a) / TAU).round(),
+            false => b - a,
+        };
+        joints.map(one).map(f64::abs).collect()
+    };
+    let mut sum = vec![0.0; q.len()];
+    for axis in 0..3 {
+        let mut most = vec![0.0; q.len()];
+        for sign in [-1.0, 1.0] {
+            let mut moved = *pose;
+            moved.translation.0[axis] += sign * HALF;
+            let answer = solver.solve(&moved, &[]);
+            // In a plane there is no other way.
+            if answer.solutions.is_empty() {
+                continue;
+            }
+            if answer.solutions.len() != count {
+                return None;
+            }
+            let total = |x: &Vec<f64>| x.iter().sum::<f64>();
+            let all = answer.solutions.iter().map(|f| off(&f.q));
+            let nearest = all.min_by(|a, b| total(a).total_cmp(&total(b)))?;
+            most.iter_mut().zip(nearest).for_each(|(m, x)| *m = f64::max(*m, x));
+        }
+        sum.iter_mut().zip(most).for_each(|(s, m)| *s += m);
+    }
+    Some(sum)
+}
+
+/// What half a unit of each entry of a pose does at most, by the smallest singular value there.
+fn of_pose(solver: &InverseKinematics, q: &[f64]) -> Option<Vec<f64>> {
+    let length = solver.robot.reach().max(1e-9);
+    let jacobian = geometric(&solver.robot, q, &Viewpoint::tool());
+    let values = measures(&jacobian, &solver.space.is_angle, length).whole.singular_values;
+    let least = *values.get(q.len().checked_sub(1)?)?;
+    // Of each column of a rotation, and of the position in lengths of the arm.
+    let off = HALF * 3.0_f64.sqrt() * f64::hypot(2.0_f64.sqrt(), 1.0 / length) / least;
+    let joint = |is_angle: &bool| if *is_angle { off } else { off * length };
+    off.is_finite().then(|| solver.space.is_angle.iter().map(joint).collect())
 }
 
 /// The closed form, where there is one that is proved: the equations of each step with their solution.
@@ -175,15 +263,18 @@ fn formulas(ground: &Ground, goal: Goal) -> Vec<Section> {
     let signs: Vec<Math> = explanation
         .steps
         .iter()
-        .filter(|step| step.kind != Kind::Homogeneous)
         .filter_map(|step| Some(Math::relation(step.sign?, Sign::EitherSign, Expr::int(1))))
         .collect();
     if !signs.is_empty() {
         section.paragraph(Line::default().list(signs));
     }
+    let mut written: Vec<String> = vec![];
     for statement in explanation.steps.iter().flat_map(shown).chain(&explanation.joints) {
         let Some(math) = put(&statement.math, &of_pose) else { continue };
-        if !too_long(&math, &section.names) {
+        // Two steps may start from the same equations.
+        let text = claimed(&math, &section.names);
+        if !too_long(&math, &section.names) && !written.contains(&text) {
+            written.push(text);
             section.push(Block::Formula { math, number: None, proof: statement.proof });
         }
     }
@@ -197,13 +288,10 @@ fn put(math: &Math, leaf: &impl Fn(Symbol) -> Option<Expr>) -> Option<Math> {
     Some(Math::Chain(first.substitute(leaf), rest.collect()))
 }
 
-/// What is shown of a step: the names, its equations, and what they are solved to. An equation A cos + B sin = 0 says it by itself: its two
-/// values are half a turn apart; an angle of sine and cosine that stand above it, too.
+/// What is shown of a step: the names, its equations, and what they are solved to, down to the joint.
 fn shown(step: &Explained) -> impl Iterator<Item = &Statement> {
     let is_lettered = step.solution.iter().any(|s| uses_letters(s, step));
     let letters = step.coefficients.iter().filter(move |_| is_lettered);
     let equations = step.sources.iter().flat_map(|source| &source.equations);
-    let is_solved = step.kind != Kind::Homogeneous;
-    let solution = step.solution.iter().filter(move |x| is_solved && x.proof.is_some());
-    step.names.iter().chain(equations).chain(letters).chain(solution)
+    step.names.iter().chain(equations).chain(letters).chain(&step.solution)
 }

@@ -151,10 +151,9 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                     .map(String::from)
                     .to_vec(),
                 formulas: counted(whole),
-                answers: vec![],
-                fields: vec![],
                 has_formulas: true,
                 answer: vec![of_parts],
+                ..Task::default()
             },
             Task {
                 name: words.torque_formulas_title(),
@@ -162,10 +161,9 @@ pub(super) fn equations(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, N
                 points: 2 * joints as u32,
                 claims: claims(d.variables().iter().map(|v| v.kind)),
                 formulas: joints,
-                answers: vec![],
-                fields: vec![],
                 has_formulas: true,
                 answer: vec![formulas],
+                ..Task::default()
             },
             in_numbers_task(ground, all.len(), answers, in_numbers),
         ],

@@ -102,7 +102,13 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
             let label = claimed(&Math::Expr(q[j]), &names);
             let label = if power == 0 { label } else { format!("{label}:\\; t^{power}") };
             let value = c.eval(|_| None).unwrap_or_default();
-            coefficients.push(Field { group: words.coefficients(), label, value, unit: String::new() });
+            coefficients.push(Field {
+                group: words.coefficients(),
+                label,
+                value,
+                unit: String::new(),
+                within: 0.0,
+            });
         }
         polynomials.push(Answer {
             names: letters.collect(),
@@ -162,12 +168,11 @@ pub(super) fn timing(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoEx
         name,
         words,
         points,
-        claims: vec![],
-        formulas: 0,
         answers,
         fields,
         has_formulas: false,
         answer: vec![answer],
+        ..Task::default()
     };
     let duration = quantity(Expr::symbol("f"), seconds as f64, 0, "s");
     Ok(Asked {

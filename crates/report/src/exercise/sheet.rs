@@ -8,7 +8,7 @@ use crate::words::{Caption, ExerciseKind, Heading, Wording};
 use crate::{ReportOptions, decimals};
 use denavit::description::{Description, JointKind, Variable};
 use denavit_check::Answer;
-use denavit_check::marking::{Item, Rubric};
+use denavit_check::marking::{Asked as Configuration, Form, Item, Rubric, Subject};
 use denavit_symbolic::Expr;
 use denavit_symbolic::print::Style;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -21,6 +21,7 @@ pub(super) struct Asked {
 }
 
 /// A task with its answer.
+#[derive(Default)]
 pub(super) struct Task {
     /// What it is called on the sheet of points.
     pub name: String,
@@ -33,6 +34,14 @@ pub(super) struct Task {
     pub formulas: usize,
     /// Values that it asks for, which say nothing of the robot by themselves.
     pub answers: Vec<Answer>,
+    /// What it asks for, by which answers are found whatever they are called.
+    pub about: Vec<Subject>,
+    /// Whether it asks for formulas or for numbers, where it is one of these alone.
+    pub form: Option<Form>,
+    /// All configurations that answer it.
+    pub configurations: Vec<Configuration>,
+    /// All values of joints that answer it, as [`Item::zeros`] has them.
+    pub zeros: Vec<(usize, String)>,
     /// Numbers that it asks for beside these.
     pub fields: Vec<Field>,
     /// Whether it asks for formulas, alone or beside numbers.
@@ -64,6 +73,8 @@ pub(super) struct Field {
     pub label: String,
     pub value: f64,
     pub unit: String,
+    /// How far the digits of what is given let it be off.
+    pub within: f64,
 }
 
 impl Field {
@@ -79,6 +90,7 @@ impl Field {
                     label: format!("({matrix})_{{{r}{c}}}"),
                     value: x.parse().unwrap_or_default(),
                     unit: String::new(),
+                    within: 0.0,
                 });
             }
         }
@@ -97,7 +109,13 @@ impl Task {
             let group = several.then(|| words.configuration_title(alike(&self.answers[..=k])));
             let symbol = Expr::symbol(name);
             let label = claimed(&Math::Expr(symbol), &names.clone().symbol(name));
-            fields.push(Field { group: group.unwrap_or_default(), label, value, unit: answer.unit.clone() });
+            fields.push(Field {
+                group: group.unwrap_or_default(),
+                label,
+                value,
+                unit: answer.unit.clone(),
+                within: 0.0,
+            });
         }
         fields.sort_by(|a, b| a.group.cmp(&b.group));
         Question {
@@ -187,6 +205,10 @@ impl<'a> Ground<'a> {
             whole: false,
             formulas: t.formulas,
             answers: t.answers.clone(),
+            about: t.about.clone(),
+            form: t.form,
+            configurations: t.configurations.clone(),
+            zeros: t.zeros.clone(),
         });
         let title = words.exercise_title(kind, name);
         let rubric =

@@ -79,10 +79,9 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
                 claims: claims(d.variables().iter().map(|v| v.kind)),
                 // A torque that is 0 says nothing.
                 formulas: (0..joints).filter(|&j| !torque(j).is_zero()).count(),
-                answers: vec![],
-                fields: vec![],
                 has_formulas: true,
                 answer: vec![answer],
+                ..Task::default()
             },
             in_numbers_task(ground, all.len(), answers, in_numbers),
         ],
@@ -101,12 +100,10 @@ pub(super) fn in_numbers_task(
         name: words.torque_numbers_title(),
         words: Line::new(words.ask_torque_numbers(configurations)),
         points: answers.len() as u32,
-        claims: vec![],
-        formulas: 0,
         answers,
-        fields: vec![],
         has_formulas: false,
         answer: vec![solution],
+        ..Task::default()
     }
 }
 

@@ -12,6 +12,9 @@ use denavit::inverse::JointSpace;
 use denavit::robot::Robot;
 use denavit::velocity::{JacobianModel, ROWS, Viewpoint, geometric};
 use denavit_check::Answer;
+use denavit_check::marking::Subject;
+use denavit_symbolic::print::{Style, print};
+use denavit_symbolic::vocabulary::Vocabulary;
 use denavit_symbolic::{Angle, Expr};
 
 /// The matrix as a formula and in numbers.
@@ -65,10 +68,10 @@ pub(super) fn jacobian(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, No
         points: 6,
         claims: ["J", "J0", "0J", "Jv", "Jw", "j*"].map(String::from).to_vec(),
         formulas: counted(rows.iter().flatten()) + entries,
-        answers: vec![],
         fields,
         has_formulas: true,
         answer: vec![answer, in_numbers],
+        ..Task::default()
     }];
     let mut section = Section::new(ground.names());
     section.heading(3, Line::new(words.formulas_title()));
@@ -123,12 +126,10 @@ fn velocities(ground: &Ground, robot: &Robot<f64>, q: &[f64], rates: &[f64]) -> 
         name: words.velocity_title(),
         words: Line::new(words.ask_velocity()),
         points: 2,
-        claims: vec![],
-        formulas: 0,
         answers,
-        fields: vec![],
         has_formulas: false,
         answer: vec![section],
+        ..Task::default()
     };
     (given, task)
 }
@@ -170,17 +171,21 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
             points: 4,
             claims: ["det J", "det*", "D"].map(String::from).to_vec(),
             formulas: 1,
-            answers: vec![],
-            fields: vec![],
+            about: vec![Subject::Determinant],
             has_formulas: true,
             answer: vec![answer],
+            ..Task::default()
         });
     }
     let mut answer = Section::new(names);
-    let mut formulas = 0;
+    let (mut formulas, mut zeros) = (0, vec![]);
+    let variables = s.description.variables();
+    let joint = |e: Expr| variables.iter().position(|v| e.as_symbol() == Some(v.symbol));
     for one in &found.common {
         let (unknown, values) = match one.zeros.first().map(|zero| zero.solved()) {
             Some(solved) if solved.1.iter().all(|value| Angle::of(*value).terms.is_empty()) => solved,
+            // A slide that is a factor.
+            _ if joint(one.factor).is_some() => (one.factor, vec![Expr::int(0)]),
             _ => {
                 answer.paragraph(words.singular_where(Math::equation(one.factor, Expr::int(0))));
                 continue;
@@ -188,6 +193,9 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
         };
         for value in values {
             formulas += 1;
+            if let Some(k) = joint(unknown).filter(|_| value.symbols().is_empty()) {
+                zeros.push((k + 1, print(value, &Vocabulary::new(), Style::Ascii)));
+            }
             answer.paragraph(words.singular_where(Math::equation(unknown, value)));
         }
     }
@@ -200,10 +208,11 @@ pub(super) fn singularities(ground: &Ground, _: &mut Chosen) -> Result<Asked, No
         points: 4,
         claims: ground.joints(),
         formulas,
-        answers: vec![],
-        fields: vec![],
+        about: vec![Subject::Singularities],
+        zeros,
         has_formulas: true,
         answer: vec![answer],
+        ..Task::default()
     });
     Ok(Asked { given, tasks })
 }

@@ -138,6 +138,9 @@ pub trait Exercise {
     /// All configurations, as a heading.
     fn configurations_title(&self) -> String;
 
+    /// All configurations for a position, as a heading.
+    fn positions_title(&self) -> String;
+
     /// To give all configurations for so many poses.
     fn ask_configurations(&self, count: usize) -> String;
 

@@ -13,12 +13,16 @@
 //! whole = true                 # all or nothing; else each formula earns its share
 //! formulas = 12                # how many a full answer has: what is missing earns nothing
 //! answers = [{ names = ["T_1"], value = "2.5", unit = "s" }]   # values that say nothing of the robot
+//! about = ["links"]            # what it asks for, by which answers are found whatever they are called
+//! form = "formulas"            # or "numbers"; either will do where it is not said
+//! configurations = [{ q = [1.3, 0.2], within = [0.001, 0.001] }]  # all configurations, radians and metres
+//! zeros = [{ joint = 2, value = "pi" }]  # all values of joints at which the arm is singular
 //! ```
 
 use crate::failure::Failure;
 use denavit::description::line_column;
 use denavit_check::Answer;
-use denavit_check::marking::{Item, Rubric};
+use denavit_check::marking::{Asked, Form, Item, Rubric, Subject};
 
 /// The keys of the file.
 const KEYS: [&str; 5] = ["title", "robot", "conditional", "carried", "items"];
@@ -55,8 +59,65 @@ pub fn write(rubric: &Rubric, robot: &str) -> String {
             }
             out += "]\n";
         }
+        if !item.about.is_empty() {
+            let about: Vec<String> = item.about.iter().map(|a| text(a.name())).collect();
+            out += &format!("about = [{}]\n", about.join(", "));
+        }
+        if let Some(form) = item.form {
+            out += &format!("form = {}\n", text(form.name()));
+        }
+        if !item.configurations.is_empty() {
+            let listed = |all: &[f64]| all.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
+            out += "configurations = [\n";
+            for Asked { q, within } in &item.configurations {
+                out += &format!("  {{ q = [{}], within = [{}] }},\n", listed(q), listed(within));
+            }
+            out += "]\n";
+        }
+        if !item.zeros.is_empty() {
+            let zero =
+                |(joint, value): &(usize, String)| format!("{{ joint = {joint}, value = {} }}", text(value));
+            out += &format!("zeros = [{}]\n", item.zeros.iter().map(zero).collect::<Vec<_>>().join(", "));
+        }
     }
     out
+}
+
+/// A word, or a list of them, each one of a set; nothing if there is another.
+fn one_of<T: Copy>(value: Option<&toml::Value>, all: &[T], name: fn(T) -> &'static str) -> Option<Vec<T>> {
+    let words: Vec<&str> = match value {
+        None => vec![],
+        Some(toml::Value::String(one)) => vec![one],
+        Some(value) => value.as_array()?.iter().map(toml::Value::as_str).collect::<Option<_>>()?,
+    };
+    words.into_iter().map(|w| all.iter().copied().find(|x| name(*x) == w)).collect()
+}
+
+/// The configurations that an item asks for; nothing if they are not told.
+fn configurations(value: Option<&toml::Value>) -> Option<Vec<Asked>> {
+    let Some(value) = value else { return Some(vec![]) };
+    let number = |v: &toml::Value| v.as_float().or(v.as_integer().map(|n| n as f64));
+    let numbers = |v: &toml::Value| v.as_array()?.iter().map(number).collect::<Option<Vec<f64>>>();
+    let one = |value: &toml::Value| {
+        let q = numbers(value.get("q")?)?;
+        let within = match value.get("within") {
+            Some(within) => numbers(within)?,
+            None => vec![0.0; q.len()],
+        };
+        (q.len() == within.len()).then_some(Asked { q, within })
+    };
+    value.as_array()?.iter().map(one).collect()
+}
+
+/// The values at which an arm is singular; nothing if they are not told.
+fn zeros(value: Option<&toml::Value>) -> Option<Vec<(usize, String)>> {
+    let Some(value) = value else { return Some(vec![]) };
+    let one = |value: &toml::Value| {
+        let joint = usize::try_from(value.get("joint")?.as_integer()?).ok().filter(|k| *k > 0)?;
+        let number = value.get("value")?;
+        Some((joint, number.as_str().map_or_else(|| number.to_string(), str::to_string)))
+    };
+    value.as_array()?.iter().map(one).collect()
 }
 
 /// The values that an item asks for; nothing if they are not told.
@@ -105,9 +166,27 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
             Some(toml::Value::String(one)) => Some(vec![one.clone()]),
             Some(toml::Value::Array(all)) => all.iter().map(|c| c.as_str().map(str::to_string)).collect(),
             // Values have names of their own.
-            None if get("answers").is_some() => Some(vec![]),
+            None if ["answers", "about"].iter().any(|key| get(key).is_some()) => Some(vec![]),
             _ => None,
         };
+        let mut told = |key: &str, what: &str| errors.push(format!("`{key}` of item {n} {what}"));
+        let about = one_of(get("about"), &Subject::ALL, Subject::name).unwrap_or_else(|| {
+            let all: Vec<&str> = Subject::ALL.iter().map(|s| s.name()).collect();
+            told("about", &format!("is one of {}", all.join(", ")));
+            vec![]
+        });
+        let form = one_of(get("form"), &Form::ALL, Form::name).unwrap_or_else(|| {
+            told("form", "is formulas or numbers");
+            vec![]
+        });
+        let configurations = configurations(get("configurations")).unwrap_or_else(|| {
+            told("configurations", "are `q` and `within`, a number for each joint");
+            vec![]
+        });
+        let zeros = zeros(get("zeros")).unwrap_or_else(|| {
+            told("zeros", "are a `joint`, from 1, and its `value`, a formula");
+            vec![]
+        });
         match (claims, get("points").and_then(&number)) {
             (Some(claims), Some(points)) if points >= 0.0 => items.push(Item {
                 name: get("name").and_then(|v| v.as_str()).map_or_else(|| claims.join(", "), str::to_string),
@@ -122,8 +201,12 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
                     }
                 },
                 formulas: get("formulas").and_then(toml::Value::as_integer).map_or(0, |n| n.max(0) as usize),
+                about,
+                form: form.first().copied(),
+                configurations,
+                zeros,
             }),
-            _ => errors.push(format!("item {n} needs `claims` (names) and `points` (a number)")),
+            _ => errors.push(format!("item {n} needs `claims` (names) or `about`, and `points` (a number)")),
         }
     }
     if listed.is_empty() {

@@ -41,6 +41,12 @@ pub fn remark(mark: &Mark, line: impl Fn(usize) -> usize) -> String {
         return "not in the document".into();
     }
     let mut parts = vec![format!("{right} of {count} right")];
+    if let Some([found, all]) = mark.configurations {
+        parts.push(format!("{found} of {all} configurations"));
+    }
+    for name in mark.named_otherwise.iter().take(6) {
+        parts.push(format!("{name} has the right value, its name says something else"));
+    }
     for (what, standings) in [
         ("not", &[Standing::Wrong][..]),
         ("under a condition", &[Standing::Conditional]),

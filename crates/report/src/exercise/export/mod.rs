@@ -19,13 +19,18 @@ use crate::render;
 
 /// Answers are right within this share of their value.
 const SHARE: f64 = 0.005;
-/// And within this wherever they are.
-const LEAST: f64 = 0.001;
+/// And this beside it: of angles in degrees, of others.
+const LEAST: [f64; 2] = [0.05, 0.001];
 
 impl Field {
+    /// How far an answer may be off wherever it is: that, and what the digits of what is given do to it.
+    fn least(&self) -> f64 {
+        LEAST[usize::from(self.unit != "°")] + self.within
+    }
+
     /// How far an answer may be off.
     fn tolerance(&self) -> f64 {
-        (SHARE * self.value.abs()).max(LEAST)
+        SHARE * self.value.abs() + self.least()
     }
 }
 

@@ -1,7 +1,7 @@
 //! A question of PrairieLearn: `info.json`, `question.html`, the pictures. Nothing is drawn at random there: each seed is a question.
 
 use super::html::escaped;
-use super::{LEAST, SHARE, asked, body, by_hand, mark, quoted, written};
+use super::{SHARE, asked, body, by_hand, mark, quoted, written};
 use crate::exercise::Exercise;
 
 /// The files of the question's folder with their texts.
@@ -29,8 +29,9 @@ pub fn prairielearn(e: &Exercise) -> Vec<(String, String)> {
             let label = escaped(&format!("${} =$", apart(&field.label)));
             page += &format!(
                 "<pl-number-input answers-name=\"a{number}\" label=\"{label}\" suffix=\"{}\" comparison=\"relabs\" rtol=\"{SHARE}\" \
-                 atol=\"{LEAST}\" correct-answer=\"{}\"></pl-number-input>\n",
+                 atol=\"{}\" correct-answer=\"{}\"></pl-number-input>\n",
                 escaped(&field.unit),
+                written(field.least()),
                 written(field.value)
             );
         }

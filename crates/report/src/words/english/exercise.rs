@@ -111,6 +111,10 @@ impl Exercise for English {
         "The joints for a pose".into()
     }
 
+    fn positions_title(&self) -> String {
+        "The joints for a position".into()
+    }
+
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "the pose" } else { "each of the poses" };
         format!(

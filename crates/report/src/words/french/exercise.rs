@@ -111,6 +111,10 @@ impl Exercise for French {
         "Les articulations pour une situation".into()
     }
 
+    fn positions_title(&self) -> String {
+        "Les articulations pour une position".into()
+    }
+
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "la situation" } else { "chacune des situations" };
         format!(

@@ -111,6 +111,10 @@ impl Exercise for German {
         "Die Gelenke zu einer Pose".into()
     }
 
+    fn positions_title(&self) -> String {
+        "Die Gelenke zu einer Position".into()
+    }
+
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "zur Pose" } else { "zu jeder der Posen" };
         format!(

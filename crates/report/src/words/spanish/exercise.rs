@@ -115,6 +115,10 @@ impl Exercise for Spanish {
         "Las articulaciones para una pose".into()
     }
 
+    fn positions_title(&self) -> String {
+        "Las articulaciones para una posición".into()
+    }
+
     fn ask_configurations(&self, count: usize) -> String {
         let pose = if count == 1 { "la pose" } else { "cada una de las poses" };
         format!(
