@@ -17,6 +17,7 @@ mod convention;
 mod counted;
 mod custom;
 mod definitions;
+mod degrees;
 mod directions;
 mod displayed;
 mod dynamics;

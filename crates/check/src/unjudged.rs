@@ -199,7 +199,7 @@ impl<'a> User<'a> {
             self.names.insert(super::custom::plain(shown));
             // A choice of a program, `up ? a : b`, is known by its text alone.
             if shown.contains(['?', '(']) && shown.contains(' ') {
-                self.names.extend(super::programs::words(shown).map(super::custom::plain));
+                self.names.extend(crate::degrees::names_in(shown).map(super::custom::plain));
             }
         }
         syntax.children().into_iter().for_each(|part| self.add(text, span, part));

@@ -24,6 +24,7 @@ use super::numbers::{Answer, Configuration, half_unit};
 use super::recognised;
 use super::subject::Subject;
 use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
+use crate::degrees::names_in as words;
 use called::{
     as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
     lacking, names_in, says_inverse, stem, without,
@@ -211,11 +212,6 @@ fn joined(name: &str) -> String {
         }
         _ => name.into(),
     }
-}
-
-/// The names in a formula.
-pub(super) fn words(formula: &str) -> impl Iterator<Item = &str> {
-    formula.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty())
 }
 
 /// Names that scripts give the hand's pose and Jacobian.

@@ -55,7 +55,7 @@ pub(super) fn joints_in_degrees(
     let turning: Vec<Expr> =
         variables.iter().filter(|v| v.kind == JointKind::Revolute).map(|v| v.symbol.into()).collect();
     let is_angle = |name: &str| meaning(name).is_some_and(|e| turning.contains(&e));
-    let conversions = crate::scripts::Conversions::of(text, &(0..text.len()), &is_angle);
+    let conversions = crate::degrees::Conversions::of(text, &(0..text.len()), &is_angle);
     if conversions.is_empty() { vec![] } else { turning }
 }
 

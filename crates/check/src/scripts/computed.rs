@@ -1,6 +1,7 @@
 //! What lines of programs compute, so that none of them is passed over in silence.
 
 use super::{MODULES, Region, regions};
+use crate::degrees::names_in;
 use denavit_reading::code::Dialect;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,10 +15,8 @@ pub(crate) fn computed(
     let mut found = vec![];
     for (span, language) in programs {
         let tests = tests(text, span);
-        let named: BTreeSet<&str> = tests
-            .iter()
-            .flat_map(|t| crate::programs::words(text.get(t.0.clone()).unwrap_or_default()))
-            .collect();
+        let named: BTreeSet<&str> =
+            tests.iter().flat_map(|t| names_in(text.get(t.0.clone()).unwrap_or_default())).collect();
         for region in regions(text, span, *language) {
             let before = found.len();
             let mut moving: BTreeSet<String> =
@@ -26,7 +25,7 @@ pub(crate) fn computed(
                 for (name, formula) in &line.parts {
                     let source = text.get(formula.clone()).unwrap_or_default();
                     let uses = |w: &str| moving.contains(w) || is_joint(w);
-                    let is_told = crate::programs::words(source).any(uses);
+                    let is_told = names_in(source).any(uses);
                     // `*t = 0`: an output that does not move.
                     let is_output = text[..line.span.start].ends_with('*');
                     if !is_told && !is_output {
@@ -87,11 +86,8 @@ fn entries_beside(
     };
     let is_new = |name: &str| !found.iter().any(|f| f.1 == name);
     let whole = region.function.clone().and_then(|f| text.get(f)).unwrap_or_default();
-    let returned: BTreeSet<&str> = whole
-        .lines()
-        .filter_map(|l| l.trim_start().strip_prefix("return "))
-        .flat_map(crate::programs::words)
-        .collect();
+    let returned: BTreeSet<&str> =
+        whole.lines().filter_map(|l| l.trim_start().strip_prefix("return ")).flat_map(names_in).collect();
     let gives_back = found.iter().any(|f| returned.contains(f.1.as_str()));
     let is_beside = |name: &str| families.contains(&family(name)) || gives_back && returned.contains(name);
     let beside = lines.filter(|(_, (name, f))| is_beside(name) && is_new(name) && is_plain(f));

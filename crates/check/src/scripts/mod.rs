@@ -6,14 +6,13 @@
 //! an entry of an argument, `T[0, 3]`, is the entry of the pose.
 
 mod computed;
-mod degrees;
 mod forces;
 mod spelling;
 
 use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
+use crate::degrees::{Conversions, INVERSE, names_in};
 pub(super) use computed::computed;
-pub(super) use degrees::Conversions;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
 pub(super) use forces::{Forces, forces};
@@ -36,8 +35,6 @@ pub(super) struct Scripts {
     pub lost: Vec<(Range<usize>, String)>,
 }
 
-/// Functions by which inverse formulas are told.
-const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
 /// Modules whose names stand before functions.
 pub(super) const MODULES: [&str; 9] =
     ["np.", "math.", "numpy.", "sp.", "sympy.", "sym.", "jnp.", "std::", "Math."];
@@ -143,7 +140,9 @@ pub(super) fn inverse(
             let factors: Vec<String> = parameters.filter(|p| is_factor_of_root(&body, p)).cloned().collect();
             let mut region = region;
             region.signs.extend(factors);
-            if !conversions.is_empty() && !conversions.hold_in(text, &region, is_joint) {
+            if !conversions.is_empty()
+                && !conversions.hold_in(text, region.lines.iter().flat_map(|l| &l.parts), is_joint)
+            {
                 // Some angles are in degrees and others are not, or it is not known which.
                 let of = |l: &Line| {
                     (l.span.start..l.end, l.parts.first().map(|p| p.0.clone()).unwrap_or_default())
@@ -165,7 +164,7 @@ pub(super) fn inverse(
             };
             let words = |l: &Line| -> BTreeSet<String> {
                 let source = l.parts.iter().map(|p| &text[p.1.clone()]);
-                source.flat_map(|s| crate::programs::words(s).map(String::from).collect::<Vec<_>>()).collect()
+                source.flat_map(|s| names_in(s).map(String::from).collect::<Vec<_>>()).collect()
             };
             let is_foreign = |w: &String| {
                 let is_own =

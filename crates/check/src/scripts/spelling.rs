@@ -1,7 +1,7 @@
 //! Lines of programs as a document writes formulas.
 
-use super::degrees::without_factor;
 use super::{MODULES, Region, split};
+use crate::degrees::without_factor;
 use denavit_reading::code::Dialect;
 use std::ops::Range;
 

@@ -25,7 +25,7 @@ impl Writer {
             end += 1;
         }
         let count = cuts.len();
-        let shape = self.declared_shape(&name).unwrap_or_else(|| match count {
+        let shape = self.declared_shape(&name).unwrap_or(match count {
             4 => (2, 2),
             9 => (3, 3),
             16 => (4, 4),

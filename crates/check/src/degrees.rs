@@ -1,6 +1,5 @@
 //! Programs that have the angles of joints in degrees, and turn them by constants of their own: `j1 * RAD`, `atan2(s, c) * DEG`.
 
-use super::{INVERSE, Region};
 use std::ops::Range;
 
 /// The names of constants that turn degrees into radians, and radians into degrees.
@@ -66,8 +65,13 @@ impl Conversions {
 
     /// True if all angles of joints of a function are in degrees: what gives one its value turns it into degrees, and each sine of one
     /// turns it into radians.
-    pub(super) fn hold_in(&self, text: &str, region: &Region, is_joint: &dyn Fn(&str) -> bool) -> bool {
-        region.lines.iter().flat_map(|l| &l.parts).all(|(name, formula)| {
+    pub(super) fn hold_in<'a>(
+        &self,
+        text: &str,
+        mut parts: impl Iterator<Item = &'a (String, Range<usize>)>,
+        is_joint: &dyn Fn(&str) -> bool,
+    ) -> bool {
+        parts.all(|(name, formula)| {
             let source = &text[formula.clone()];
             let gives = is_joint(name) && INVERSE.iter().any(|f| source.contains(f));
             (!gives || has_word(source, &self.per_radian)) && self.turns_all(source, is_joint)
@@ -85,13 +89,21 @@ impl Conversions {
                 (depth == 0).then_some(i)
             });
             let argument = &inner[..end.unwrap_or(inner.len())];
-            !crate::programs::words(argument).any(is_joint) || has_word(argument, &self.per_degree)
+            !names_in(argument).any(is_joint) || has_word(argument, &self.per_degree)
         })
     }
 }
 
+/// The names in a formula of a program.
+pub(super) fn names_in(formula: &str) -> impl Iterator<Item = &str> {
+    formula.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|w| !w.is_empty())
+}
+
+/// Functions by which inverse formulas are told.
+pub(super) const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
+
 fn has_word(source: &str, names: &[String]) -> bool {
-    crate::programs::words(source).any(|w| names.iter().any(|n| n == w))
+    names_in(source).any(|w| names.iter().any(|n| n == w))
 }
 
 /// A constant without what spelling adds: `(float)(M_PI / 180.0)` is `pi/180`.
