@@ -33,24 +33,38 @@ pub(super) fn instead(assertion: &Assertion, plan: &Plan) -> Option<Instead> {
     if pairs.len() > MAX_ENTRIES {
         return None;
     }
+    let d = &subject.description;
+    // A letter of the author's for a length that has the value of several may stand for any of them.
+    let valued = |e: Expr| e.substitute(|s| d.exact_value(s));
+    let as_it_is = |e: Expr| e;
+    let all = || elsewhere(whole, subject, plan).into_iter().chain(candidates(whole, subject));
+    is_one_of(&pairs, all(), &as_it_is).or_else(|| is_one_of(&pairs, all(), &valued))
+}
+
+/// The matrix of several that is printed, if what is printed differs from what should be in more than one entry.
+fn is_one_of(
+    pairs: &[&Pair],
+    mut all: impl Iterator<Item = (Instead, Matrix)>,
+    put: &dyn Fn(Expr) -> Expr,
+) -> Option<Instead> {
     let mut points = Points::new(5);
-    let printed: Vec<Option<[u64; 3]>> = pairs.iter().map(|p| points.value(p.value)).collect();
-    let wrong = pairs.iter().zip(&printed).filter(|(p, v)| points.value(p.wanted) != **v).count();
+    let printed: Vec<Option<[u64; 3]>> = pairs.iter().map(|p| points.value(put(p.value))).collect();
+    let wrong = pairs.iter().zip(&printed).filter(|(p, v)| points.value(put(p.wanted)) != **v).count();
     if wrong < 2 {
         return None;
     }
     let mut is = |m: &Matrix| {
         pairs.iter().zip(&printed).all(|(pair, value)| {
             let entry = pair.place.and_then(|(r, c)| m.entry(r - 1, c - 1));
-            value.is_some() && entry.is_some_and(|e| points.value(e) == *value)
+            value.is_some() && entry.is_some_and(|e| points.value(put(e)) == *value)
         })
     };
-    let all = elsewhere(whole, subject, plan).into_iter().chain(candidates(whole, subject));
-    let found = all.into_iter().find(|(_, m)| is(m))?;
+    let (instead, matrix) = all.find(|(_, m)| is(m))?;
     let is_proved = pairs.iter().all(|p| {
-        p.place.and_then(|(r, c)| found.1.entry(r - 1, c - 1)).is_some_and(|e| equal(p.value, e).is_equal())
+        let entry = p.place.and_then(|(r, c)| matrix.entry(r - 1, c - 1));
+        entry.is_some_and(|e| equal(put(p.value), put(e)).is_equal())
     });
-    is_proved.then_some(found.0)
+    is_proved.then_some(instead)
 }
 
 /// The matrix of the same frames by the other tables of the document.

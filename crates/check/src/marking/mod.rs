@@ -6,7 +6,7 @@ mod flat;
 mod meant;
 mod singular;
 
-use super::outcome::{Checked, Claim, Entry, Standing};
+use super::outcome::{Checked, Claim, Entry, Skipped, Standing};
 use super::values_asked::{Answer, ValueSlip};
 use denavit_reading::document::Format;
 use denavit_symbolic::greek;
@@ -187,7 +187,9 @@ impl Rubric {
         let mut mark = Mark::default();
         let patterns = item.claims.iter().map(|c| plain(c));
         let values = item.answers.iter().flat_map(|a| &a.names).map(|name| plain(name));
-        let lines: Vec<String> = patterns.chain(values).collect();
+        let is_of_joints = [Subject::Joints, Subject::Singularities].iter().any(|s| item.about.contains(s));
+        let joints = ["q*", "theta*", "th*"].into_iter().filter(|_| is_of_joints).map(String::from);
+        let lines: Vec<String> = patterns.chain(values).chain(joints).collect();
         let mut shares: Vec<Option<f64>> = vec![];
         for (claim, belongs) in checked.claims.iter().zip(belonging) {
             let Some(belongs) = belongs[at] else { continue };
@@ -234,7 +236,9 @@ impl Rubric {
         for line in &checked.unjudged {
             let source = text.get(line.span.clone()).unwrap_or_default();
             let left = source.split_once('=').map_or(source, |sides| sides.0).trim();
-            if lines.iter().any(|pattern| fits(pattern, &plain(left))) {
+            // A list of values without a name.
+            let is_list = !item.configurations.is_empty() && left.starts_with(['(', '[']);
+            if is_list || lines.iter().any(|pattern| fits(pattern, &plain(left))) {
                 mark.by_hand.push(line.span.clone());
                 mark.others.push((left.to_string(), Standing::Undecided));
                 shares.push(None);
@@ -253,6 +257,26 @@ impl Rubric {
                     mark.by_hand.push(claim.span.clone());
                     mark.others.push((claim.name.clone(), Standing::Undecided));
                 }
+            }
+        }
+        // What could not be read at all, where nothing else is there.
+        if shares.is_empty() && !item.about.is_empty() {
+            let is_named = |left: &str| {
+                let names = self.items.iter().flat_map(|i| &i.claims);
+                names.into_iter().any(|pattern| fits(&plain(pattern), &plain(left)))
+            };
+            for line in &checked.unjudged {
+                let source = text.get(line.span.clone()).unwrap_or_default();
+                let Some((left, _)) = source.split_once('=') else { continue };
+                let is_no_formula = matches!(line.why, Skipped::Given | Skipped::Unused(_));
+                if !is_no_formula && !is_named(left) && shares.len() < full.max(1) {
+                    mark.by_hand.push(line.span.clone());
+                    shares.push(None);
+                }
+            }
+            // Nothing is known of how much of the answer it is.
+            if !shares.is_empty() {
+                shares.resize(full.max(1), None);
             }
         }
         mark.right[1] = shares.len();

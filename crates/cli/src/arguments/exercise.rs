@@ -27,7 +27,7 @@ pub struct ExerciseArguments {
     /// Make N exercises, a folder each below --task or -o: 01, 02, …; arms that are made up have the same joints and other lengths
     #[arg(long, value_name = "N")]
     pub series: Option<usize>,
-    /// Make an exercise for each line of this file, a folder of its name each
+    /// Make an exercise for each line of this file but a row of heads, a folder of its name each
     #[arg(long, value_name = "FILE", conflicts_with = "series")]
     pub students: Option<PathBuf>,
     /// How many configurations or poses it has

@@ -83,10 +83,11 @@ fn a_series_has_a_folder_for_each() {
     let folder = folder("series");
     fs::create_dir_all(&folder).expect("a folder");
     let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
-    fs::write(at("class.csv"), "Anna,7\nBen,8\n").expect("a file");
+    fs::write(at("class.csv"), "Name,Group\nAnna,7\nBen,8\n").expect("a file");
     let arguments = ["exercise", "--kind", "path", "--difficulty", "easy", "--seed", "3", "--students"];
     let made = run(&[&arguments[..], &[&at("class.csv"), "--task", &at("task")]].concat());
     assert_eq!(made.0, 0, "{}", made.2);
+    assert!(made.2.contains("the first row, `Name`, is a head"), "{}", made.2);
     let read = |name: &str| fs::read_to_string(at(name)).expect("a file");
     assert!(read("task/series.csv").starts_with("name,seed,robot\nAnna,3,"));
     let sheet = |name: &str| read(name).lines().skip(4).map(String::from).collect::<Vec<_>>();
