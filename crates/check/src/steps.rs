@@ -28,7 +28,7 @@ pub(super) struct Steps {
 /// The links of a text, one below the other or side by side, numbered from 1 on; nothing where a link has other motions, or moves
 /// about z, about x and about z again.
 pub(super) fn told(text: &str) -> Option<Steps> {
-    let mut links: Vec<(Range<usize>, Vec<(Step, String)>)> = vec![];
+    let mut links: Vec<(Range<usize>, Vec<_>)> = vec![];
     for line in lines(text) {
         let source = text.get(line.clone()).unwrap_or_default();
         if source.len() > LONGEST || links.len() >= MAX_LINKS {

@@ -42,7 +42,9 @@ fn remarks(out: &mut Respelled<'_>) {
         let is_package = ["using ", "import ", "export ", "include("].iter().any(|w| bare.starts_with(w));
         if !shown.is_empty() && (is_quoted || marks > 0 || is_words || is_package) {
             out.write(start, start + shown.chars().next().map_or(0, char::len_utf8), "%");
-        } else if let Some(at) = source.find('#').filter(|at| source[..*at].matches('"').count() % 2 == 0) {
+        } else if let Some(at) =
+            source.find('#').filter(|at| source[..*at].matches('"').count().is_multiple_of(2))
+        {
             out.write(line.start + at, line.start + at + 1, "%");
         }
         is_quoted ^= marks % 2 == 1;

@@ -207,7 +207,7 @@ fn tables(text: &str, format: Format, kinds: &[JointKind]) -> Vec<Told> {
         let width = grid.first().map_or(0, Vec::len);
         let is_even = grid.iter().all(|row| row.len() == width);
         let side = || (0..width).map(|c| grid.iter().map(|row| row[c].clone()).collect()).collect();
-        let sides: Vec<Vec<Vec<(String, Range<usize>)>>> = if is_even { vec![side()] } else { vec![] };
+        let sides: Vec<Vec<_>> = if is_even { vec![side()] } else { vec![] };
         for grid in std::iter::once(grid.clone()).chain(sides) {
             let Some((heads, rows)) = grid.split_first() else { continue };
             let column = |k: usize| {

@@ -31,7 +31,7 @@ pub fn compared(descriptions: &[Description], options: &ReportOptions) -> Docume
         sections.extend(pictures(&all, options.language));
     }
     if has(Topic::Table) {
-        sections.extend(each(&all, Heading::Table, |s| table::sections(s)));
+        sections.extend(each(&all, Heading::Table, table::sections));
     }
     if has(Topic::Workspace) {
         sections.extend(each(&all, Heading::Workspace, |s| workspace::section(s).into_iter().collect()));
