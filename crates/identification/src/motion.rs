@@ -359,8 +359,11 @@ fn resampled(t: &[f64], x: &[f64], step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Rates that differ by less from those of the positions are these.
+/// Rates that differ by less from those of the positions are these, where a joint moves by a stroke, radians or metres; of one that
+/// hardly moves, and of accelerations, which are noise more than motion, by less than this.
 const SAME: f64 = 0.03;
+const STROKE: f64 = 0.1;
+const LIKE: f64 = 0.4;
 
 /// Whether recorded rates are those of the positions, and accelerations those of the rates.
 fn consistent(
@@ -379,15 +382,17 @@ fn consistent(
         // them has the noise.
         (dr * dr > 0.5 * dd * rr && dd > 0.0).then(|| [dr / dd, rr / dr])
     };
-    let off = |[one, other]: [f64; 2]| {
+    let off = |[one, other]: [f64; 2], same: f64| {
         let (low, high) = (one.min(other), one.max(other));
-        (low > 1.0 + SAME || high < 1.0 - SAME).then(|| if low > 0.0 { (low * high).sqrt() } else { one })
+        (low > 1.0 + same || high < 1.0 - same).then(|| if low > 0.0 { (low * high).sqrt() } else { one })
     };
     for j in 0..q.len() {
-        if let Some(k) = ratio(&q[j], &qd[j]).and_then(off) {
+        let edges = q[j].iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+        let moves = edges[1] - edges[0] > STROKE;
+        if let Some(k) = ratio(&q[j], &qd[j]).and_then(|k| off(k, if moves { SAME } else { LIKE })) {
             return Err(NoMotion::Rates(j, k));
         }
-        if let Some(k) = ratio(&qd[j], &qdd[j]).and_then(off) {
+        if let Some(k) = ratio(&qd[j], &qdd[j]).and_then(|k| off(k, LIKE)) {
             return Err(NoMotion::Accelerations(j, k));
         }
     }

@@ -393,7 +393,8 @@ fn rare_words() {
     for blocks in [Blocks::Point, Blocks::Wrist, Blocks::Rows] {
         both(&|w| w.rates(blocks));
     }
-    both(&|w| w.always_singular(5));
+    both(&|w| w.always_singular(5, true));
+    both(&|w| w.always_singular(5, false));
     both(&|w| w.minor_of_both(&["vx", "wz"], &[0, 3]));
     for place in [
         Place::OneLine(3, 5),
