@@ -1,8 +1,7 @@
 //! Options of `calibrate`.
 
-use super::RobotArguments;
+use super::{PoseColumns, RobotArguments};
 use clap::{Args, ValueEnum};
-use denavit_recording::Told;
 use std::path::PathBuf;
 
 /// `calibrate`
@@ -50,18 +49,9 @@ pub struct CalibrateArguments {
     /// Write the calibrated arm: a robot file (.toml), or a URDF (.urdf); with --choose the configurations (.csv)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// The column of the time
-    #[arg(long, value_name = "COLUMN")]
-    pub time: Option<String>,
-    /// The columns of the joints: names with commas, or `first..last`
-    #[arg(long, value_name = "COLUMNS")]
-    pub joints: Option<String>,
-    /// The three columns of the position
-    #[arg(long, value_name = "COLUMNS")]
-    pub position: Option<String>,
-    /// The 3, 4, 6 or 9 columns of the orientation
-    #[arg(long, value_name = "COLUMNS")]
-    pub rotation: Option<String>,
+    /// Which columns are what.
+    #[command(flatten)]
+    pub columns: PoseColumns,
     /// The column of the distance to a fixed centre; without one the distance is always the same
     #[arg(long, value_name = "COLUMN")]
     pub distance: Option<String>,
@@ -98,13 +88,4 @@ pub enum MeasureName {
     Distance,
     /// That a point of the tool touches a fixed plane
     Plane,
-}
-
-impl CalibrateArguments {
-    /// What is told of the columns.
-    pub fn told(&self) -> Told {
-        let [time, joints, position, rotation] =
-            [&self.time, &self.joints, &self.position, &self.rotation].map(Clone::clone);
-        Told { time, joints, position, rotation }
-    }
 }

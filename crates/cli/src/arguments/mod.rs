@@ -27,7 +27,7 @@ pub use identify::{CriterionOf, IdentifyArguments, PriorName};
 #[cfg(feature = "parquet")]
 pub use map::{Columns, CompressionName, MapArguments, Wanted};
 pub use path::{PathArguments, PathFormat};
-pub use recording::RecordingArguments;
+pub use recording::{PoseColumns, RecordingArguments};
 pub use report::{LevelName, PaceName, ReportArguments, ReportFormat, ReportLanguage, SectionName};
 pub use view::ViewArguments;
 

@@ -1,25 +1,45 @@
-//! Options of `check` for recordings.
+//! Options of `check` for recordings, and which columns of one are what.
 
 use clap::Args;
 use denavit_recording::Told;
 use std::path::PathBuf;
 
-/// Which columns of a recording are what, and what is written.
+/// Which columns of a recording are the joints and the pose.
 #[derive(Args)]
-#[command(next_help_heading = "Recordings")]
-pub struct RecordingArguments {
+pub struct PoseColumns {
     /// The column of the time
     #[arg(long, value_name = "COLUMN")]
     pub time: Option<String>,
     /// The columns of the joints, and what may stand among them: names with commas, or `first..last`
     #[arg(long, value_name = "COLUMNS")]
     pub joints: Option<String>,
-    /// The three columns of the hand's position
+    /// The three columns of the position
     #[arg(long, value_name = "COLUMNS")]
     pub position: Option<String>,
-    /// The 3, 4, 6 or 9 columns of how the hand is turned
+    /// The 3, 4, 6 or 9 columns of the orientation
     #[arg(long, value_name = "COLUMNS")]
     pub rotation: Option<String>,
+}
+
+impl PoseColumns {
+    fn all(&self) -> [&Option<String>; 4] {
+        [&self.time, &self.joints, &self.position, &self.rotation]
+    }
+
+    /// What is told by hand.
+    pub fn told(&self) -> Told {
+        let [time, joints, position, rotation] = self.all().map(Clone::clone);
+        Told { time, joints, position, rotation }
+    }
+}
+
+/// What is told of a recording, and what is written.
+#[derive(Args)]
+#[command(next_help_heading = "Recordings")]
+pub struct RecordingArguments {
+    /// Which columns are what.
+    #[command(flatten)]
+    pub columns: PoseColumns,
     /// Write what the columns mean as a recipe (TOML)
     #[arg(long, value_name = "FILE")]
     pub recipe: Option<PathBuf>,
@@ -29,16 +49,8 @@ pub struct RecordingArguments {
 }
 
 impl RecordingArguments {
-    /// What is told by hand.
-    pub fn told(&self) -> Told {
-        let [time, joints, position, rotation] =
-            [&self.time, &self.joints, &self.position, &self.rotation].map(Clone::clone);
-        Told { time, joints, position, rotation }
-    }
-
     /// Whether one of them is given.
     pub fn is_any(&self) -> bool {
-        let texts = [&self.time, &self.joints, &self.position, &self.rotation];
-        texts.iter().any(|t| t.is_some()) || self.recipe.is_some() || self.fix.is_some()
+        self.columns.all().iter().any(|t| t.is_some()) || self.recipe.is_some() || self.fix.is_some()
     }
 }

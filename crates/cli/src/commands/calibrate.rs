@@ -254,7 +254,8 @@ fn measured(
         Measurement::Orientation => [false, true],
         _ => [false, false],
     };
-    let roles = Roles::find_parts(&recording, arm, &arguments.told(), needed).map_err(|e| failed(&e))?;
+    let roles =
+        Roles::find_parts(&recording, arm, &arguments.columns.told(), needed).map_err(|e| failed(&e))?;
     let by_name = |wanted: &Option<String>| match wanted {
         None => Ok(None),
         Some(wanted) => match recording.columns.iter().position(|c| c.name == *wanted) {

@@ -6,13 +6,15 @@
 use super::broken::{broken, unreadable};
 use super::{Load, Loads, MAX_COLUMNS, Source};
 use crate::MapError;
-use arrow_array::builder::{Float64Builder, Int64Builder, StringBuilder};
+use arrow_array::builder::{PrimitiveBuilder, StringBuilder};
+use arrow_array::types::{ArrowPrimitiveType, Float64Type, Int64Type};
 use arrow_array::{ArrayRef, RecordBatch};
 use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use csv::{ByteRecord, Reader, ReaderBuilder};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::sync::Arc;
 
 /// A text of columns.
@@ -206,30 +208,8 @@ fn batch(
             MapError::new(what, "is it still being written?")
         };
         Ok(match schema.field(k).data_type() {
-            DataType::Int64 => {
-                let mut built = Int64Builder::with_capacity(records.len());
-                for (line, cell) in cells {
-                    let x = str::from_utf8(cell).ok().and_then(|t| t.parse().ok());
-                    match x {
-                        _ if is_missing(cell) => built.append_null(),
-                        Some(x) => built.append_value(x),
-                        None => return Err(changed(line, cell)),
-                    }
-                }
-                Arc::new(built.finish())
-            }
-            DataType::Float64 => {
-                let mut built = Float64Builder::with_capacity(records.len());
-                for (line, cell) in cells {
-                    let x = str::from_utf8(cell).ok().and_then(|t| t.parse().ok());
-                    match x {
-                        _ if is_missing(cell) => built.append_null(),
-                        Some(x) => built.append_value(x),
-                        None => return Err(changed(line, cell)),
-                    }
-                }
-                Arc::new(built.finish())
-            }
+            DataType::Int64 => numbers::<Int64Type>(cells, changed)?,
+            DataType::Float64 => numbers::<Float64Type>(cells, changed)?,
             _ => {
                 let mut built = StringBuilder::new();
                 for r in records {
@@ -250,4 +230,21 @@ fn batch(
     let arrays: Vec<ArrayRef> = columns.iter().map(one).collect::<Result<_, _>>()?;
     let fields: Vec<_> = columns.iter().map(|&k| schema.fields()[k].clone()).collect();
     RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays).map_err(|why| broken(path, &why))
+}
+
+/// Cells as numbers, each with its line; what is missing is null.
+fn numbers<'a, T: ArrowPrimitiveType<Native: FromStr>>(
+    cells: impl Iterator<Item = (u64, &'a [u8])>,
+    changed: impl Fn(u64, &[u8]) -> MapError,
+) -> Result<ArrayRef, MapError> {
+    let mut built = PrimitiveBuilder::<T>::with_capacity(cells.size_hint().0);
+    for (line, cell) in cells {
+        let x = str::from_utf8(cell).ok().and_then(|t| t.parse().ok());
+        match x {
+            _ if is_missing(cell) => built.append_null(),
+            Some(x) => built.append_value(x),
+            None => return Err(changed(line, cell)),
+        }
+    }
+    Ok(Arc::new(built.finish()))
 }

@@ -75,7 +75,7 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
         note(&format!("note: {name}: {remark}"));
     }
     let recording = Recording { columns: table.columns.into_iter().map(column).collect() };
-    let roles = Roles::find(&recording, &arm, &arguments.recording.told()).map_err(|e| failed(&e))?;
+    let roles = Roles::find(&recording, &arm, &arguments.recording.columns.told()).map_err(|e| failed(&e))?;
     let held = hold(&arm, &recording, &roles, &HoldOptions::default()).map_err(|e| failed(&e))?;
     let of = |c: &usize| recording.columns[*c].name.as_str();
     let names = Names { arm: &arm, columns: roles.joints.iter().map(of).collect(), first_row, row };
