@@ -92,6 +92,11 @@ impl Bound {
                         MapError::new(format!("--keep {name}: there is no such column"), hint)
                     })
                 };
+                if let Some(name) =
+                    names.iter().enumerate().find(|(k, n)| names[..*k].contains(n)).map(|x| x.1)
+                {
+                    return Err(MapError::new(format!("--keep {name}: it is told twice"), "name it once"));
+                }
                 names.iter().map(find).collect::<Result<_, _>>()?
             }
         };
@@ -410,12 +415,12 @@ fn pose(of: &Compiled, schema: &Schema) -> Result<Input, MapError> {
         option: "--position and --rotation",
         usual,
     };
-    let split = Input::find(schema, &wanted(&quantities, vec![own]), request.units);
-    if !is_matrix {
-        return split;
+    let split = || Input::find(schema, &wanted(&quantities, vec![own]), request.units);
+    let whole = || Input::find(schema, &wanted(&matrix, vec![vec!["pose".to_string()]]), request.units);
+    match (is_matrix, &asked) {
+        (false, _) => split(),
+        (true, None) => split().or_else(|why| whole().map_err(|_| why)),
+        // A column of lists that is named is a matrix; how long lists of any length are no schema says.
+        (true, Some(_)) => whole().or_else(|_| split()),
     }
-    split.or_else(|why| {
-        let listed = vec![vec!["pose".to_string()]];
-        Input::find(schema, &wanted(&matrix, listed), request.units).map_err(|_| why)
-    })
 }

@@ -171,11 +171,13 @@ impl Input {
                     let what = format!("`{}` holds {}, no numbers", field.name(), field.data_type());
                     return Err(refuse(what));
                 }
-                let scales = wanted
-                    .quantities
-                    .iter()
-                    .map(|&q| scale(field, q, units, true))
-                    .collect::<Result<_, _>>()?;
+                let all: Vec<_> = wanted.quantities.iter().map(|&q| (q, scale(field, q, units))).collect();
+                // Joints that turn and joints that slide in one list: its unit is that of some of them, the others have the usual one.
+                let is_of_some = all.iter().any(|(q, found)| *q != Quantity::Plain && found.is_ok());
+                let one_of = |(q, found): (Quantity, Result<Scale, MapError>)| {
+                    found.or_else(|why| if is_of_some { Ok(q.scale(units)) } else { Err(why) })
+                };
+                let scales = all.into_iter().map(one_of).collect::<Result<_, _>>()?;
                 (Places::List(one), scales)
             }
             _ => {
@@ -189,7 +191,7 @@ impl Input {
                 }
                 let each = found.iter().zip(wanted.quantities);
                 let scales =
-                    each.map(|(&k, &q)| scale(schema.field(k), q, units, false)).collect::<Result<_, _>>()?;
+                    each.map(|(&k, &q)| scale(schema.field(k), q, units)).collect::<Result<_, _>>()?;
                 (Places::Columns(found), scales)
             }
         };
@@ -249,22 +251,19 @@ impl Input {
     }
 }
 
-/// How a column becomes a quantity; of a list whose unit is one for numbers of another kind, those have the usual one.
-fn scale(field: &Field, quantity: Quantity, units: Units, is_list: bool) -> Result<Scale, MapError> {
+/// How a column becomes a quantity.
+fn scale(field: &Field, quantity: Quantity, units: Units) -> Result<Scale, MapError> {
     let usual = quantity.scale(units);
     if quantity == Quantity::Plain {
         return Ok(usual);
     }
     let Some(unit) = said_unit(field) else { return Ok(usual) };
-    match quantity.said(unit) {
-        Ok(scale) => Ok(scale),
-        // Joints that turn and joints that slide in one list.
-        Err(_) if is_list && ["rad", "deg", "m", "mm"].iter().any(|u| unit.starts_with(u)) => Ok(usual),
-        Err(why) => Err(MapError::new(
+    quantity.said(unit).map_err(|why| {
+        MapError::new(
             format!("column `{}` is {why}", field.name()),
             "rad, deg, m and mm are read, their rates with /s and /s^2: mend the column's unit",
-        )),
-    }
+        )
+    })
 }
 
 fn all_finite(column: &[f64]) -> bool {

@@ -26,8 +26,28 @@ pub struct Csv {
     bytes: u64,
 }
 
-/// Bytes of the longest line that is read.
+/// Bytes of the longest line that is read, and of what is read ahead of it.
 const LONGEST: usize = 16 << 20;
+const AHEAD: usize = 1 << 18;
+/// Bytes of text after which a part ends, however many rows it should have.
+const TEXT: usize = 16 << 20;
+
+/// A file of which a line has an end: what was read since the last one is counted.
+struct Lines {
+    file: File,
+    since: usize,
+}
+
+impl Read for Lines {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        if self.since > LONGEST + AHEAD {
+            return Err(std::io::Error::other("a line is too long"));
+        }
+        let count = self.file.read(into)?;
+        self.since += count;
+        Ok(count)
+    }
+}
 
 /// What a column may hold still.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,7 +65,12 @@ impl Csv {
     /// If it cannot be read, has no head, or lines of another length.
     pub fn open(path: &Path) -> Result<Self, MapError> {
         let file = File::open(path).map_err(|why| unreadable(path, &why))?;
-        let bytes = file.metadata().map_or(0, |m| m.len());
+        let about = file.metadata().map_err(|why| unreadable(path, &why))?;
+        if !about.is_file() {
+            let hint = "it is read twice: write what comes out of a pipe to a file first";
+            return Err(MapError::new(format!("{} is no file", path.display()), hint));
+        }
+        let bytes = about.len();
         let mut head = vec![];
         file.take(1 << 16).read_to_end(&mut head).map_err(|why| unreadable(path, &why))?;
         if head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff]) || head.contains(&0) {
@@ -89,9 +114,6 @@ impl Csv {
         let mut holds = vec![Holds::Nothing; names.len()];
         let (mut record, mut rows) = (ByteRecord::new(), 0);
         while next(&mut reader, &mut record, path)? {
-            if record.as_slice().len() > LONGEST {
-                return Err(broken(path, &"a line is too long"));
-            }
             rows += 1;
             for (own, cell) in holds.iter_mut().zip(&record) {
                 if *own < Holds::Text {
@@ -112,13 +134,15 @@ impl Csv {
     }
 }
 
-fn reader(path: &Path, between: u8) -> Result<Reader<File>, MapError> {
+fn reader(path: &Path, between: u8) -> Result<Reader<Lines>, MapError> {
     let file = File::open(path).map_err(|why| unreadable(path, &why))?;
-    Ok(ReaderBuilder::new().delimiter(between).buffer_capacity(1 << 18).from_reader(file))
+    Ok(ReaderBuilder::new().delimiter(between).buffer_capacity(AHEAD).from_reader(Lines { file, since: 0 }))
 }
 
 /// The next row; whether there is one.
-fn next(reader: &mut Reader<File>, record: &mut ByteRecord, path: &Path) -> Result<bool, MapError> {
+fn next(reader: &mut Reader<Lines>, record: &mut ByteRecord, path: &Path) -> Result<bool, MapError> {
+    reader.get_mut().since = 0;
+    let start = reader.position().line();
     reader.read_byte_record(record).map_err(|why| match why.kind() {
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
@@ -128,8 +152,20 @@ fn next(reader: &mut Reader<File>, record: &mut ByteRecord, path: &Path) -> Resu
             );
             MapError::new(what, "was it copied whole? a comma in a text stands between quotes")
         }
+        csv::ErrorKind::Io(why) if why.kind() == std::io::ErrorKind::Other => {
+            let what = format!("{}: line {start} does not end within {} MB", path.display(), LONGEST >> 20);
+            MapError::new(what, "is a quote opened there, and never closed?")
+        }
         _ => broken(path, &why),
     })
+}
+
+/// A row in as many bytes as it has: a record keeps the room of the longest before it.
+fn fitted(record: &ByteRecord) -> ByteRecord {
+    let mut own = ByteRecord::with_capacity(record.as_slice().len(), record.len());
+    own.extend(record);
+    own.set_position(record.position().cloned());
+    own
 }
 
 fn is_missing(cell: &[u8]) -> bool {
@@ -145,9 +181,11 @@ fn held(cell: &[u8]) -> Holds {
     let digits = text.trim_start_matches('-');
     // `007` is a name, and would lose its zeros.
     let is_padded = digits.len() > 1 && digits.starts_with('0') && digits.as_bytes()[1].is_ascii_digit();
+    // A number with more digits than are kept is a name, too.
+    let is_long = digits.bytes().all(|b| b.is_ascii_digit()) && text.parse::<i64>().is_err();
     if !is_padded && text.parse::<i64>().is_ok() {
         Holds::Whole
-    } else if !is_padded && text.parse::<f64>().is_ok() {
+    } else if !is_padded && !is_long && text.parse::<f64>().is_ok() {
         Holds::Number
     } else {
         Holds::Text
@@ -173,10 +211,13 @@ impl Source for Csv {
         let mut reader = reader(&self.path, self.between)?;
         Ok(Box::new(std::iter::from_fn(move || {
             let mut records = Vec::with_capacity(rows.min(1 << 16));
-            let mut record = ByteRecord::new();
-            while records.len() < rows {
+            let (mut record, mut text) = (ByteRecord::new(), 0);
+            while records.len() < rows && text < TEXT {
                 match next(&mut reader, &mut record, &self.path) {
-                    Ok(true) => records.push(record.clone()),
+                    Ok(true) => {
+                        text += record.as_slice().len();
+                        records.push(fitted(&record));
+                    }
                     Ok(false) => break,
                     Err(why) => return Some(Err(why)),
                 }

@@ -16,6 +16,9 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Each array has a file of its own while it is written, and processes may have about a thousand.
+const MAX_ARRAYS: usize = 500;
+
 /// Characters of a text.
 const TEXT: usize = 20;
 
@@ -62,6 +65,14 @@ impl Writing {
     /// # Errors
     /// If it cannot be made, or a column is no array.
     pub fn new(path: &Path, schema: &SchemaRef) -> Result<Self, MapError> {
+        if schema.fields().len() > MAX_ARRAYS {
+            let what = format!(
+                "{}: {} columns; an NPZ is written with at most {MAX_ARRAYS}",
+                path.display(),
+                schema.fields().len()
+            );
+            return Err(MapError::new(what, "--keep fewer columns, or write Parquet"));
+        }
         let (temporary, file) = Temporary::new(path)?;
         let mut columns = vec![];
         for field in schema.fields() {

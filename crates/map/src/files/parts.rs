@@ -18,7 +18,7 @@ use parquet::arrow::ArrowWriter;
 use parquet::column::writer::ColumnCloseResult;
 use parquet::file::metadata::{KeyValue, ParquetMetaDataReader};
 use serde_json::{Value, json};
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::UNIX_EPOCH;
@@ -56,7 +56,8 @@ impl Parts {
         let unwritable = |why: std::io::Error| unwritable(&folder, &why);
         fs::create_dir_all(&folder).map_err(unwritable)?;
         let lock = File::create(folder.join("lock")).map_err(unwritable)?;
-        if lock.try_lock().is_err() {
+        if let Err(why) = lock.try_lock() {
+            let TryLockError::WouldBlock = why else { return Err(unwritable(why.into())) };
             let what = format!("{} is being written by another program", folder.display());
             return Err(MapError::new(what, "wait for it, or write to another file"));
         }

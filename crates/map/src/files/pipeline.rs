@@ -217,14 +217,18 @@ fn work(
 ) {
     while let Ok((k, load)) = input.recv() {
         // Readers take what a file says of itself on trust here and there.
+        let loaded = catch_unwind(AssertUnwindSafe(|| load?()))
+            .unwrap_or_else(|_| Err(super::broken::broken(path, &"it is broken")));
         let one = || {
-            let batch = load?()?;
+            let batch = loaded?;
             let span = ordered.map(|column| order::check(&batch, column, 0)).transpose()?.flatten();
             let (batch, counts) = step(&batch)?;
             Ok(Done { encoded: encoder(k, &batch, &counts)?, counts, span })
         };
-        let done = catch_unwind(AssertUnwindSafe(one))
-            .unwrap_or_else(|_| Err(super::broken::broken(path, &"it is broken")));
+        let done = catch_unwind(AssertUnwindSafe(one)).unwrap_or_else(|_| {
+            let what = format!("{}: part {} could not be computed", path.display(), k + 1);
+            Err(MapError::new(what, "the file is not at fault: please report it"))
+        });
         let is_bad = done.is_err();
         if output.send(done).is_err() || is_bad {
             return;

@@ -250,9 +250,7 @@ fn determinants(found: &Singularities, matrix: &Factor, words: &dyn Wording) -> 
     }
     let has_surplus = found.minors.first().is_some_and(of_joints);
     let why = match found.deficient {
-        Some(rank) => {
-            words.always_singular(rank, found.jacobian.algorithm.outputs().len() / ROWS.len() > rank)
-        }
+        Some(rank) => words.always_singular(rank, found.rows.len() == 3),
         None => words.several_determinants(has_surplus, found.rows.len()),
     };
     let mut blocks = vec![paragraph(why)];

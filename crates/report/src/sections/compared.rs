@@ -47,25 +47,22 @@ fn glance(all: &[Setting], language: Tongue) -> Section {
     let words = language.words();
     let text =
         |s: &Setting, line: &Line| Line::new(plain(line, &language.spelled(&s.description.vocabulary())));
-    let columns: Vec<Vec<(Line, Line)>> = all.iter().map(summary::rows).collect();
-    let labels: Vec<String> = SHOWN.iter().map(|&glance| words.glance(glance)).collect();
-    let names = Vocabulary::new();
-    let cell = |label: &str, (s, rows): (&Setting, &Vec<(Line, Line)>)| {
-        let own = rows.iter().find(|(l, _)| plain(l, &names) == label);
-        own.map_or_else(|| Line::new("–"), |(_, value)| text(s, value))
+    let columns: Vec<Vec<(Glance, Line)>> = all.iter().map(summary::rows).collect();
+    let row = |&glance: &Glance| {
+        let own = |rows: &[(Glance, Line)]| rows.iter().find(|r| r.0 == glance).map(|r| r.1.clone());
+        let cells: Vec<Option<Line>> = columns.iter().map(|rows| own(rows)).collect();
+        let is_said = cells.iter().any(Option::is_some);
+        let cell = |(s, line): (&Setting, Option<Line>)| line.map_or_else(|| Line::new("–"), |l| text(s, &l));
+        let row = std::iter::once(Line::new(words.glance(glance))).chain(all.iter().zip(cells).map(cell));
+        is_said.then(|| row.collect::<Vec<_>>())
     };
-    let row = |label: &String| {
-        let cells = all.iter().zip(&columns).map(|one| cell(label, one));
-        std::iter::once(Line::new(label.clone())).chain(cells).collect::<Vec<_>>()
-    };
-    let is_said = |row: &Vec<Line>| row[1..].iter().any(|line| plain(line, &names) != "–");
-    let mut section = Section::new(names.clone());
+    let mut section = Section::new(Vocabulary::new());
     section.push(Part::Table(Table {
         caption: Line::new(words.beside_each_other()[0]),
         head: std::iter::once(Line::default())
             .chain(all.iter().map(|s| Line::new(s.description.name.clone())))
             .collect(),
-        rows: labels.iter().map(row).filter(is_said).collect(),
+        rows: SHOWN.iter().filter_map(row).collect(),
     }));
     section
 }

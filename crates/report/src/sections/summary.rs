@@ -15,26 +15,26 @@ const LONG: usize = 240;
 /// A box of labels and values.
 pub fn section(s: &Setting) -> Section {
     let mut section = Section::new(s.description.vocabulary());
-    section.push(Part::Summary(rows(s)));
+    let labelled = |(glance, line)| (Line::new(s.words().glance(glance)), line);
+    section.push(Part::Summary(rows(s).into_iter().map(labelled).collect()));
     section
 }
 
-/// Labels and values.
-pub fn rows(s: &Setting) -> Vec<(Line, Line)> {
-    let label = |glance| Line::new(s.words().glance(glance));
-    let mut rows = vec![(label(Glance::Structure), Line::new(s.words().structure(&s.structure)))];
-    rows.push((label(Glance::Convention), Line::new(s.words().convention(s.description.convention))));
+/// What is known at a glance.
+pub fn rows(s: &Setting) -> Vec<(Glance, Line)> {
+    let mut rows = vec![(Glance::Structure, Line::new(s.words().structure(&s.structure)))];
+    rows.push((Glance::Convention, Line::new(s.words().convention(s.description.convention))));
     if let Some(source) = &s.description.source {
-        rows.push((label(Glance::Source), Line::new(source.clone())));
+        rows.push((Glance::Source, Line::new(source.clone())));
     }
     if s.options.topics.contains(&Topic::Forward) {
-        rows.push((label(Glance::Forward), forward(s)));
+        rows.push((Glance::Forward, forward(s)));
     }
     if s.options.topics.contains(&Topic::Inverse) {
-        rows.push((label(Glance::Inverse), inverse(s)));
+        rows.push((Glance::Inverse, inverse(s)));
     }
     if s.options.topics.contains(&Topic::Velocity) {
-        rows.push((label(Glance::Singularities), singularities(s)));
+        rows.push((Glance::Singularities, singularities(s)));
     }
     rows
 }
@@ -52,7 +52,9 @@ fn inverse(s: &Setting) -> Line {
             let pose = s.words().closed_form(model.max_solutions(), &given.collect::<Vec<_>>());
             let position = Explanation::of_its_position(model).and_then(|e| e.solutions);
             match position {
-                Some(count) => s.words().and_of_the_position(&pose, &s.words().closed_form(count, &[])),
+                Some(count) => {
+                    format!("{pose} {}", s.words().of_the_position(&s.words().closed_form(count, &[])))
+                }
                 None => pose,
             }
         }
@@ -68,8 +70,7 @@ fn singularities(s: &Setting) -> Line {
     let point = s.singular().as_ref().ok().and_then(|found| found.of_its_point(&s.description));
     match &point {
         Some(point) => {
-            let words = s.words().and_of_the_position("", "");
-            let mut line = line.text(words);
+            let mut line = line.text(format!(" {}", s.words().of_the_position("")));
             line.0.extend(factors(s, Ok(point)).0);
             line
         }

@@ -158,8 +158,8 @@ pub trait Report {
     /// The title.
     fn title(&self, robot: &str) -> String;
 
-    /// What is said of the pose, and the same of the position alone behind it.
-    fn and_of_the_position(&self, pose: &str, position: &str) -> String;
+    /// What is said of the position alone, behind what is said of the pose.
+    fn of_the_position(&self, said: &str) -> String;
 
     /// The title of a document about several robots.
     fn compared(&self, robots: &[&str]) -> String;

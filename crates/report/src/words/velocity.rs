@@ -64,8 +64,8 @@ pub trait Velocity {
     /// Before the determinant with some joints (from 0).
     fn minor_of_joints(&self, joints: &[usize]) -> String;
 
-    /// That the rank is never more than this, and what the determinants are that follow.
-    fn always_singular(&self, rank: usize, is_redundant: bool) -> String;
+    /// That the rank is never more than this, of a hand or of its point alone, and what the determinants are that follow.
+    fn always_singular(&self, rank: usize, is_point: bool) -> String;
 
     /// Before the determinant of some rows and joints (from 0).
     fn minor_of_both(&self, rows: &[&str], joints: &[usize]) -> String;

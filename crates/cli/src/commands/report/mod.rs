@@ -28,7 +28,14 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
     let description = load::robot(&arguments.robot)?;
     let format = format(arguments)?;
     let pose = arguments.q.as_deref().map(|text| configuration(&description, text)).transpose()?;
-    let source = checked(arguments, &description)?;
+    let is_single = arguments.beside.is_empty();
+    let compared_by =
+        [SectionName::Summary, SectionName::Figures, SectionName::Table, SectionName::Workspace];
+    if !is_single && arguments.sections.iter().any(|s| !compared_by.contains(s)) {
+        let why = "--beside: robots are compared by the sections summary, figures, table and workspace";
+        return Err(Failure::Usage(why.into()));
+    }
+    let source = if is_single { checked(arguments, &description)? } else { None };
     let errata =
         source.as_ref().map(|(text, checked)| Errata { name: &arguments.robot.robot, text, checked });
     let options = ReportOptions {

@@ -17,8 +17,8 @@ impl Report for English {
         format!("Kinematics of the {robot}")
     }
 
-    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
-        format!("{pose} The position alone: {position}")
+    fn of_the_position(&self, said: &str) -> String {
+        format!("The position alone: {said}")
     }
 
     fn compared(&self, robots: &[&str]) -> String {

@@ -62,10 +62,11 @@ impl Velocity for English {
         format!("Joints {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
-        let free = if is_redundant { ", and some joints can move while it stands still" } else { "" };
+    fn always_singular(&self, rank: usize, is_point: bool) -> String {
+        let thing = if is_point { "point" } else { "hand" };
         format!(
-            "The rank is {rank} at the most: in every configuration the hand lacks a direction{free}. The rank is less still where the determinants with all choices of {rank} rows and {rank} joints are 0. \
+            "The rank is {rank} at the most: in every configuration the {thing} lacks a direction, and some joints can move while it \
+             stands still. The rank is less still where the determinants with all choices of {rank} rows and {rank} joints are 0. \
              Those that are 0 everywhere are left out."
         )
     }

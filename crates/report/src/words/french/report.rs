@@ -17,8 +17,8 @@ impl Report for French {
         say!("Modélisation géométrique et cinématique : {robot}")
     }
 
-    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
-        say!("{pose} La position seule : {position}")
+    fn of_the_position(&self, said: &str) -> String {
+        say!("La position seule : {said}")
     }
 
     fn compared(&self, robots: &[&str]) -> String {

@@ -66,10 +66,11 @@ impl Velocity for French {
         say!("Articulations {} :", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
-        let free = if is_redundant { ", et des articulations peuvent bouger sans qu'il bouge" } else { "" };
+    fn always_singular(&self, rank: usize, is_point: bool) -> String {
+        let thing = if is_point { "au point" } else { "à l'organe terminal" };
         say!(
-            "Le rang vaut au plus {rank} : dans toutes les configurations, il manque une direction à l'organe terminal{free}. Le rang est encore plus petit là où les déterminants de tous les choix \
+            "Le rang vaut au plus {rank} : dans toutes les configurations, il manque une direction {thing}, et des \
+             articulations peuvent bouger sans qu'il bouge. Le rang est encore plus petit là où les déterminants de tous les choix \
              de {rank} lignes et {rank} articulations sont nuls. Ceux qui sont nuls partout ne sont pas écrits."
         )
     }

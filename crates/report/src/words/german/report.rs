@@ -17,8 +17,8 @@ impl Report for German {
         format!("Kinematik: {robot}")
     }
 
-    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
-        format!("{pose} Die Position allein: {position}")
+    fn of_the_position(&self, said: &str) -> String {
+        format!("Die Position allein: {said}")
     }
 
     fn compared(&self, robots: &[&str]) -> String {

@@ -68,10 +68,11 @@ impl Velocity for German {
         format!("Gelenke {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
-        let free = if is_redundant { ", und Gelenke können sich bewegen, während er ruht" } else { "" };
+    fn always_singular(&self, rank: usize, is_point: bool) -> String {
+        let thing = if is_point { "dem Punkt" } else { "dem Endeffektor" };
         format!(
-            "Der Rang ist höchstens {rank}: In jeder Stellung fehlt dem Endeffektor eine Richtung{free}. Noch kleiner ist der Rang, wo die Determinanten zu jeder Auswahl von {rank} Zeilen und {rank} Gelenken \
+            "Der Rang ist höchstens {rank}: In jeder Stellung fehlt {thing} eine Richtung, und Gelenke können sich bewegen, \
+             während er ruht. Noch kleiner ist der Rang, wo die Determinanten zu jeder Auswahl von {rank} Zeilen und {rank} Gelenken \
              0 sind. Solche, die überall 0 sind, werden nicht aufgeführt."
         )
     }

@@ -17,8 +17,8 @@ impl Report for Spanish {
         format!("Cinemática: {robot}")
     }
 
-    fn and_of_the_position(&self, pose: &str, position: &str) -> String {
-        format!("{pose} La posición sola: {position}")
+    fn of_the_position(&self, said: &str) -> String {
+        format!("Solo la posición: {said}")
     }
 
     fn compared(&self, robots: &[&str]) -> String {

@@ -67,14 +67,11 @@ impl Velocity for Spanish {
         format!("Articulaciones {}:", plain(joints))
     }
 
-    fn always_singular(&self, rank: usize, is_redundant: bool) -> String {
-        let free = if is_redundant {
-            ", y hay articulaciones que pueden moverse mientras él está quieto"
-        } else {
-            ""
-        };
+    fn always_singular(&self, rank: usize, is_point: bool) -> String {
+        let thing = if is_point { "al punto" } else { "al efector final" };
         format!(
-            "El rango es como mucho {rank}: en todas las configuraciones le falta una dirección al efector final{free}. El rango es aún menor donde son nulos los determinantes de todas las elecciones de \
+            "El rango es como mucho {rank}: en todas las configuraciones le falta una dirección {thing}, y hay articulaciones que \
+             pueden moverse mientras él está quieto. El rango es aún menor donde son nulos los determinantes de todas las elecciones de \
              {rank} filas y {rank} articulaciones. Se omiten los que son nulos en todas partes."
         )
     }
