@@ -148,11 +148,7 @@ pub fn whole(arguments: &RobotArguments) -> Result<Option<(Description, Around, 
     let Around::Rows(chain) = &around else { return Ok(None) };
     let Some(closed) = chain.closed.as_ref().filter(|c| !c.beside.is_empty()) else { return Ok(None) };
     let Some(whole) = with_beside(arguments, &linkage, closed) else { return Ok(None) };
-    let name = arguments.robot.as_str();
-    if catalogue_name(name).is_none_or(|n| listed(&n).is_none()) {
-        let text = contents(name, MAX_BYTES).unwrap_or_default();
-        note(render(&findings(&linkage), name, &text).trim_end());
-    }
+    said(arguments, &linkage)?;
     note(&format!("note: {}", rows::couplings(closed)));
     note(&format!(
         "note: the whole linkage, the links beside the chain with it: {}",

@@ -74,7 +74,10 @@ pub fn couplings(closed: &ClosedChain) -> String {
     let relation = |(s, e): &(Symbol, Expr)| format!("{} = {}", s.name(), plain(*e));
     let relations: Vec<String> = closed.passive.iter().map(relation).collect();
     let how = if closed.is_of_values { "proved for the values of the lengths" } else { "proved" };
-    let mut text = format!("closed loops{mode}: {}; {how}", relations.join(", "));
+    let mut text = match &relations[..] {
+        [] => format!("closed loops{mode}"),
+        all => format!("closed loops{mode}: {}; {how}", all.join(", ")),
+    };
     if !closed.untested.is_empty() {
         let names = closed.untested.join(", ");
         text += &format!(

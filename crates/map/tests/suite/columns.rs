@@ -1,7 +1,7 @@
 //! Results against what the robot computes of a row alone, in numbers.
 
 use super::common::{batch, fk, joints, mapping, numbers, run, ur5};
-use arrow_array::builder::{FixedSizeListBuilder, Float32Builder, ListBuilder};
+use arrow_array::builder::{FixedSizeListBuilder, Float32Builder, Float64Builder, ListBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int32Type};
 use arrow_array::{Array, ArrayRef, Float32Array, Float64Array, Int64Array, RecordBatch, StringArray};
@@ -355,6 +355,22 @@ fn what_does_not_fit_is_refused() {
     short.append(true);
     let lists = RecordBatch::try_from_iter([("q", Arc::new(short.finish()) as ArrayRef)]).expect("a batch");
     refused(&fk(), &lists, "row 1: `q` holds 5 numbers; 6 are needed");
+    refused(
+        &Request { keep: Keep::Some(vec!["q1".into(), "q1".into()]), ..fk() },
+        &numbered(&six),
+        "told twice",
+    );
+    // The unit of a list is one of what it holds.
+    for unit in ["mrad", "min", "mm", "deg/s"] {
+        let mut long = ListBuilder::new(Float64Builder::new());
+        long.values().append_slice(&[0.0; 6]);
+        long.append(true);
+        let list: ArrayRef = Arc::new(long.finish());
+        let field = Field::new("q", list.data_type().clone(), true)
+            .with_metadata(std::collections::HashMap::from([("unit".to_string(), unit.to_string())]));
+        let input = RecordBatch::try_new(Arc::new(Schema::new(vec![field])), vec![list]).expect("a batch");
+        refused(&fk(), &input, unit);
+    }
     let nothing = denavit_map::Mapping::new(&ur5(), &Request::default());
     assert!(nothing.err().expect("refused").to_string().contains("nothing is to be computed"));
     let masses = denavit_map::Mapping::new(&ur5(), &Request { torque: true, ..Request::default() });

@@ -190,3 +190,28 @@ fn files_that_are_no_tables_of_rows() {
     assert!(same.contains("what is read and what is to be written"), "{same}");
     assert!(others(&at, &["in.parquet"]).is_empty());
 }
+
+/// Identifiers stay what they are, and a quote that is never closed names its line and takes no more than a line may.
+#[test]
+fn texts_of_csv_keep_their_digits_and_lines_their_ends() {
+    let at = folder("csv-lines");
+    let (input, output) = (at.join("in.csv"), at.join("out.csv"));
+    let head = "id,q1,q2,q3,q4,q5,q6\n";
+    let ids = ["18446744073709551615", "18446744073709551614", "-9223372036854775809"];
+    let rows: String = ids.iter().map(|id| format!("{id},0,1,0,1,0,1\n")).collect();
+    std::fs::write(&input, format!("{head}{rows}")).expect("written");
+    mapped(&job(&input, &output), &fk()).expect("mapped");
+    let text = std::fs::read_to_string(&output).expect("a file");
+    let first: Vec<&str> = text.lines().skip(1).filter_map(|l| l.split(',').next()).collect();
+    assert_eq!(first, ids);
+    // Long lines end a part, and are whole in it.
+    let long = "x".repeat(9 << 20);
+    let rows: String = (0..5).map(|k| format!("{k}{long},0,1,0,1,0,1\n")).collect();
+    std::fs::write(&input, format!("{head}{rows}")).expect("written");
+    let summary = mapped(&job(&input, &output), &fk()).expect("mapped");
+    assert!(summary.counts.rows == 5 && summary.parts > 1, "{summary:?}");
+    let rest = "1,0,1,0,1,0,1\n".repeat(2 << 20);
+    std::fs::write(&input, format!("{head}7,0,1,0,1,0,1\n\"8,0,1,0,1,0,1\n{rest}")).expect("written");
+    let why = mapped(&job(&input, &output), &fk()).expect_err("refused").to_string();
+    assert!(why.contains("line 3 does not end within 16 MB") && why.contains("a quote"), "{why}");
+}

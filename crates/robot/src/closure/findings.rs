@@ -231,8 +231,18 @@ fn closes(linkage: &Linkage, loops: &Loops, first: &std::ops::Range<usize>, out:
                 .warning(span, format!("not closed wherever it was tried; with all driven joints at 0{how}")),
         };
     }
-    let Some(mobility) = mobility else { return };
     let driven = loops.driven().len();
+    let Some(mobility) = mobility else {
+        // Closed at rest alone: driven joints are more than it has freedoms, mostly.
+        if !at_rest.iter().all(is_open) {
+            let message = format!(
+                "closed with all driven joints at 0, and nowhere else where it was tried: fewer than {driven} joints can be driven, or it is closed in few places"
+            );
+            out.warning(first.clone(), message)
+                .hint("drive fewer joints (p in the place of q), or see how far each may go");
+        }
+        return;
+    };
     let (count, rank, joints) = (mobility.count(), mobility.rank, mobility.joints);
     let said = format!(
         "the mobility is {count} ({joints} joints, constraints of rank {rank} at {} closed configurations), and {driven} joint{} driven",

@@ -68,8 +68,10 @@ impl Answer {
             let one = self.solutions.remove(k);
             let other = &mut self.solutions[if j > k { j - 1 } else { j }];
             other.multiplicity = other.multiplicity.max(2);
-            if one.residual < other.residual && other.branch.is_empty() {
-                (other.q, other.residual) = (one.q, one.residual);
+            // The twin that the limits allow stands for both; else the better one.
+            let is_better = one.residual < other.residual && one.within_limits == other.within_limits;
+            if other.branch.is_empty() && (is_better || one.within_limits && !other.within_limits) {
+                (other.q, other.residual, other.within_limits) = (one.q, one.residual, one.within_limits);
             }
             self.doubt = self.doubt.or(Some(Doubt::DoubleRoot));
         }

@@ -216,6 +216,9 @@ impl<'a> Mjcf<'a, '_> {
         let name = name.unwrap_or_else(|| format!("body {}", self.links.bodies.len()));
         let mass = mass.filter(|_| self.models[cx.model].from_geoms != FromGeoms::Always);
         let Some(body) = self.link(name, kind, mass, element.span()) else { return };
+        if is_mocap {
+            self.mocap.push(body);
+        }
         self.from_geoms.insert(body, from_geoms);
         self.model_of.insert(body, cx.model);
         let joints = self.joints_of(element, &inner);

@@ -75,6 +75,11 @@ impl<'a> Mjcf<'a, '_> {
         element.only(if is_weld { WELD } else { CONNECT }, &mut self.reader.out);
         let Ends { bodies, are_sites } = self.ends(element, full, model)?;
         let [a, b] = bodies;
+        if bodies.iter().any(|body| self.mocap.contains(body)) {
+            let message = "what a body for motion capture pulls is no closed loop, and is left";
+            self.reader.out.note(element.span(), message);
+            return None;
+        }
         let seen = |place: Transform<Expr>| (shown[b].inverse() * shown[a] * place).map(readable::settled);
         let identity = Transform::identity();
         let (places, keeps) = if are_sites {

@@ -139,6 +139,8 @@ struct Mjcf<'a, 'r> {
     holds: Vec<Hold>,
     /// The joints that actuators drive.
     driven: Vec<String>,
+    /// Bodies that a tracker moves.
+    mocap: Vec<usize>,
 }
 
 /// Reads a model of MuJoCo's, with the files that it includes and the models that it attaches.
@@ -208,6 +210,7 @@ fn robot(documents: &[Document], reader: &mut Reader) -> Option<Mechanism> {
         renamed: vec![],
         holds: vec![],
         driven: vec![],
+        mocap: vec![],
     };
     mjcf.assets();
     mjcf.world(root);

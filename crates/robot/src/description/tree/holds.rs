@@ -89,7 +89,7 @@ impl Mechanism {
     }
 
     /// The joints that are driven: those that are said to be, and those that are on no closed loop. Where none on a loop is said to be,
-    /// the first ones are, as many as the loops leave free where the file shows them.
+    /// the first ones are, as many as the loops leave free with all joints at 0 (`closure::findings` says where that is not their mobility).
     pub(in crate::description) fn drives(&self) -> Vec<usize> {
         let mut on_loop = vec![false; self.joints.len()];
         let own = |j: usize| self.joints[j].follows.as_ref().map_or(j, |f| f.joint);
@@ -97,8 +97,10 @@ impl Mechanism {
             self.between_bodies(hold.bodies).into_iter().for_each(|j| on_loop[own(j)] = true);
         }
         let variables = self.variables();
-        if variables.iter().any(|j| on_loop[*j] && self.driven.contains(j)) {
-            return variables.into_iter().filter(|j| !on_loop[*j] || self.driven.contains(j)).collect();
+        // What drives a joint that follows drives the one that it follows.
+        let driven: Vec<usize> = self.driven.iter().map(|&j| own(j)).collect();
+        if variables.iter().any(|j| on_loop[*j] && driven.contains(j)) {
+            return variables.into_iter().filter(|j| !on_loop[*j] || driven.contains(j)).collect();
         }
         let passive = self.determined(&variables, &on_loop);
         variables.into_iter().filter(|j| !passive.contains(j)).collect()

@@ -32,7 +32,7 @@ impl Drivers {
             let follows = |(k, f): (usize, &Vec<Rational>)| {
                 let own = f.iter().zip(chosen).filter(|(x, _)| !x.is_zero());
                 own.fold(true, |fits, (x, &d)| {
-                    fits && turning[d] == turning[k] && (!turning[k] || x.is_integer())
+                    fits && turning[d] == turning[k] && (!turning[k] || is_followed(x))
                 })
             };
             let fits = inverse.iter().all(of_a_kind) && factors.iter().enumerate().all(follows);
@@ -51,6 +51,14 @@ impl Drivers {
             values[k] = self.axes.iter().zip(&self.factors[k]).map(|(&d, x)| x.to_f64() * values[d]).sum();
         }
     }
+}
+
+/// More turns of an axis by one of another are not written out as sines and cosines of sums.
+const MOST_TURNS: i64 = 16;
+
+/// Whether an angle times this is one that sines and cosines of the angle determine in a few steps.
+fn is_followed(factor: &Rational) -> bool {
+    factor.is_integer() && factor.to_integer().is_some_and(|n| n.unsigned_abs() <= MOST_TURNS.unsigned_abs())
 }
 
 /// Tries sets of `n` independent rows, the first ones first, until something comes of one.
