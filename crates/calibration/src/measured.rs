@@ -37,6 +37,8 @@ pub struct What {
     pub recipe: Option<Recipe>,
     /// Whether the columns are taken as they are said, without a search for slips.
     pub is_unchecked: bool,
+    /// Whether rows may be grossly wrong: the estimate weighs them.
+    pub is_robust: bool,
 }
 
 /// Measurements, and what they are measurements of.
@@ -61,11 +63,12 @@ pub struct Prepared {
 }
 
 /// Slips that leave the measurements what they are: frames, numbers of the arm itself, rows that are left out or weighed.
-fn is_let_pass(slip: &Slip, gains: bool) -> bool {
+fn is_let_pass(slip: &Slip, what: &What) -> bool {
     match slip {
         Slip::Base(_) | Slip::Tool(_) | Slip::Zero(..) | Slip::Length(_) => true,
-        Slip::Spikes(_) | Slip::Missing(_) | Slip::Apart(..) | Slip::TimeBack(_) | Slip::Gaps(_) => true,
-        Slip::GainBy(..) => gains,
+        Slip::Spikes(_) | Slip::Missing(_) | Slip::TimeBack(_) | Slip::Gaps(_) => true,
+        Slip::Apart(..) => what.is_robust,
+        Slip::GainBy(..) => what.gains,
         _ => false,
     }
 }
@@ -76,9 +79,9 @@ fn is_frame(slip: &Slip) -> bool {
 }
 
 /// The slips of a recording that calibration cannot pass.
-pub fn slips(held: &Held, gains: bool) -> Vec<&Finding> {
+pub fn slips<'a>(held: &'a Held, what: &What) -> Vec<&'a Finding> {
     // A zero at an end is a turn of base or tool.
-    let passes = |f: &Finding| is_let_pass(&f.slip, gains) || f.same.iter().any(is_frame);
+    let passes = |f: &Finding| is_let_pass(&f.slip, what) || f.same.iter().any(is_frame);
     held.findings.iter().filter(|f| !passes(f)).collect()
 }
 
@@ -209,7 +212,7 @@ fn poses(arm: &Arm, recording: &Recording, roles: &Roles, what: &What) -> Result
         (None, false) => {
             let found = hold(arm, recording, roles, &HoldOptions::default()).map_err(NoMeasurements::Hold)?;
             if !found.is_understood
-                || !slips(&found, what.gains).is_empty()
+                || !slips(&found, what).is_empty()
                 || !found.recipe.joints.iter().all(|j| j.turn.is_none())
             {
                 return Err(NoMeasurements::Slips(Box::new(found)));

@@ -27,6 +27,7 @@ fn what(measurement: Measurement) -> What {
         length: None,
         recipe: None,
         is_unchecked: false,
+        is_robust: false,
     }
 }
 

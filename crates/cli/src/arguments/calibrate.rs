@@ -9,7 +9,8 @@ use std::path::PathBuf;
 /// With measurements: estimates the errors of the geometry with their deviations, says what these rows do not show, and writes
 /// the arm with `-o`. With --choose: the poses to measure at. With neither: what the measurement can show of this arm at all.
 /// A recording that has a slip (a sign, an order, degrees for radians) is refused: `denavit check` finds it, and --fix or
-/// --recipe undoes it. Exit codes: 0 done, 1 rows do not show all that such measurements can, 3 it cannot be read or has a slip.
+/// --recipe undoes it; so is one in which the hand is far off in some rows, without --robust. What is found and does not matter
+/// is said: frames, zeros and lengths that are off, jumps of the pose, times that stand still, gains with --gains. Exit codes: 0 done, 1 rows do not show all that such measurements can, 3 it cannot be read or has a slip.
 #[derive(Args)]
 pub struct CalibrateArguments {
     /// The robot as it is written down

@@ -16,7 +16,7 @@ use denavit_calibration::{
     deviation_of_hand, table_seen, visible, words,
 };
 use denavit_recording::words::{Names, finding};
-use denavit_recording::{Arm, Recipe, Recording, Roles};
+use denavit_recording::{Arm, Recipe, Recording, Roles, Slip};
 use denavit_tables::Kind;
 use denavit_wire::calibration as wire;
 use std::io::Write;
@@ -95,6 +95,7 @@ fn what(arguments: &CalibrateArguments) -> Result<What, Failure> {
         length: arguments.bar.as_deref().map(length).transpose()?,
         recipe: None,
         is_unchecked: arguments.unchecked,
+        is_robust: arguments.robust,
     })
 }
 
@@ -274,8 +275,11 @@ fn measured(
     }
     let of = |c: &usize| recording.columns[*c].name.as_str();
     let names = Names { arm, columns: roles.joints.iter().map(of).collect(), first_row, row };
-    let prepared =
-        prepare(arm, &recording, &roles, &what).map_err(|e| no_measurements(&e, arguments, &name, &names))?;
+    let prepared = prepare(arm, &recording, &roles, &what)
+        .map_err(|e| no_measurements(&e, &arguments.robot.robot, &what, &name, &names))?;
+    if let Some(held) = &prepared.held {
+        held.findings.iter().for_each(|f| note(&format!("note: {name}: {}", finding(f, held, &names))));
+    }
     let Prepared { problem, measured, rows, left, base, tool, .. } = &prepared;
     let seen = visible(problem);
     let options = CalibrateOptions {
@@ -415,13 +419,12 @@ fn no_table(e: &NoTable) -> Failure {
 }
 
 /// Why columns are no measurements, with what to do.
-fn no_measurements(e: &NoMeasurements, arguments: &CalibrateArguments, name: &str, names: &Names) -> Failure {
-    let robot = &arguments.robot.robot;
+fn no_measurements(e: &NoMeasurements, robot: &str, what: &What, name: &str, names: &Names) -> Failure {
     let check = format!("denavit check {robot} {name}");
     match e {
         NoMeasurements::Slips(held) => {
             let mut text = String::new();
-            let all = slips(held, arguments.gains);
+            let all = slips(held, what);
             if !held.is_understood || all.is_empty() {
                 text += &format!("error: {name}: the recording is not understood against {robot}");
                 text += &format!(
@@ -431,9 +434,13 @@ fn no_measurements(e: &NoMeasurements, arguments: &CalibrateArguments, name: &st
                 for f in &all {
                     text += &format!("error: {name}: {}\n", finding(f, held, names));
                 }
-                text += &format!(
-                    "  = hint: a slip is no matter of calibration: run `{check} --fix clean.csv` first, and calibrate with clean.csv; --unchecked takes the columns as they are said"
-                );
+                text += &if all.iter().all(|f| matches!(f.slip, Slip::Apart(..))) {
+                    "  = hint: --robust lets such rows count for little; --unchecked takes all as they are said".into()
+                } else {
+                    format!(
+                        "  = hint: a slip is no matter of calibration: run `{check} --fix clean.csv` first, and calibrate with clean.csv; --unchecked takes the columns as they are said"
+                    )
+                };
             }
             Failure::Input(text)
         }

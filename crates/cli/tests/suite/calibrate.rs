@@ -160,6 +160,25 @@ fn a_slip_is_refused() {
     }
 }
 
+/// Rows that are far off are no matter of least squares: they are named, refused, and count for little where that is asked for.
+#[test]
+fn rows_that_are_far_off() {
+    let folder = folder("calibrate-apart");
+    let mut real = Real::new("ur5", 15);
+    let mut rows = real.rows(200, &Transform::identity());
+    rows.iter_mut().step_by(7).for_each(|r| r[8] += 0.1);
+    let file = write(&folder.join("apart.csv"), HEAD, &rows);
+    let (code, _, err) = run(&["calibrate", "ur5", &file]);
+    assert_eq!(code, 3, "{err}");
+    for part in ["error: ", "the hand is far off in 29 lines of 200", "hint: --robust"] {
+        assert!(err.contains(part), "{part}: {err}");
+    }
+    let (code, out, err) = run(&["calibrate", "ur5", &file, "--robust"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(err.contains("note: ") && err.contains("the hand is far off in 29 lines of 200"), "{err}");
+    assert_eq!(out.matches("left aside").count(), 29, "{out}");
+}
+
 #[test]
 fn poses_to_measure_at() {
     let run_with =
