@@ -46,6 +46,18 @@ fn the_written_robot_has_the_recorded_torques() {
     }
 }
 
+/// A recording without noise, made from masses: the masses that are found have its parameters.
+#[test]
+fn masses_that_were_recorded_are_found_to_be() {
+    let exact = crate::made::Setting { positions: 0.0, torques: 0.0, ..USUAL };
+    for name in ["staubli-rx90", "ur5"] {
+        let truth = truth(name, 33, Sought::default());
+        let found = identify(&truth.model, &recording(&truth, &exact), &Asked::default()).expect("motion");
+        let set = consistent(&truth.model, &found.estimate, &Prior::Neutral);
+        assert!(matches!(set.farthest, Some((_, off)) if off < 3.0), "{name}: {:?}", set.farthest);
+    }
+}
+
 fn column(name: &str, unit: Option<&str>, values: &[f64]) -> Column {
     Column { name: name.into(), unit: unit.map(Into::into), values: values.to_vec() }
 }
