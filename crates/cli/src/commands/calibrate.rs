@@ -214,7 +214,7 @@ fn chosen(
         return Ok(());
     }
     write!(out, "{}: ", description.name)?;
-    for line in words::chosen_lines(&chosen, candidates.len(), noise) {
+    for line in words::chosen_lines(what.measurement, &chosen, candidates.len(), noise) {
         writeln!(out, "{line}")?;
     }
     if arguments.output.is_none() {
@@ -289,7 +289,7 @@ fn measured(
     };
     let found = calibrate(problem, &seen, measured, &options).map_err(|e| failed(&e))?;
     let written = Written::new(description, &what, &prepared, &found).map_err(|e| no_table(&e))?;
-    let hand = deviation_of_hand(problem, &seen, &found.state, &found.covariance);
+    let hand = deviation_of_hand(problem, &seen, &found);
     if let Some(output) = &arguments.output {
         write_whole(output, &written.in_format(output)?)?;
     }
@@ -326,10 +326,9 @@ fn measured(
             let off = found.residuals[r];
             writeln!(
                 out,
-                "  {row} {}: left aside, {} and {} off",
+                "  {row} {}: left aside, {} off",
                 rows[r] + first_row,
-                words::degrees(off.turn),
-                words::millimetres(off.shift)
+                words::off(what.measurement, &off)
             )?;
         }
         for line in words::table_lines(&written.rows, &written.table, description.convention) {

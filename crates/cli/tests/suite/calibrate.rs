@@ -202,6 +202,37 @@ fn poses_to_measure_at() {
     assert_eq!((rows.len(), rows[0].len()), (8, 6));
 }
 
+/// Orientations say nothing of lengths: no number of them is given.
+#[test]
+fn orientations_have_no_lengths() {
+    let asked = ["calibrate", "ur5", "--measure", "orientation"];
+    let (code, out, err) = run(&[&asked[..], &["--choose", "6", "--candidates", "40"]].concat());
+    assert_eq!(code, 0, "{err}");
+    assert!(!out.contains(" mm") && out.contains("for a noise of 0.0200°\n"), "{out}");
+    let (_, out, _) = run(&[&asked[..], &["--choose", "6", "--candidates", "40", "--json"]].concat());
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    for path in ["/deviation_of_hand", "/deviation_with_random", "/noise/distance"] {
+        assert_eq!(answer.pointer(path), Some(&Value::Null), "{path}: {out}");
+    }
+    let folder = folder("calibrate-orientations");
+    let mut real = Real::new("ur5", 17);
+    let rows = real.rows(60, &Transform::identity());
+    let file = write(&folder.join("o.csv"), HEAD, &rows);
+    let (code, out, err) = run(&["calibrate", "ur5", &file, "--measure", "orientation", "--json"]);
+    assert_eq!(code, 0, "{err}");
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    for path in [
+        "/deviation_of_hand",
+        "/noise/distance",
+        "/after/distance",
+        "/before/distance",
+        "/held_out/1/distance",
+    ] {
+        assert_eq!(answer.pointer(path), Some(&Value::Null), "{path}: {out}");
+    }
+    assert!(answer.pointer("/after/angle").is_some_and(Value::is_f64), "{out}");
+}
+
 #[test]
 fn positions_of_a_point() {
     let folder = folder("calibrate-positions");
