@@ -29,7 +29,7 @@ pub struct Told {
     pub torques: Option<String>,
     /// What columns of torques are multiplied with, joint by joint.
     pub gains: Option<Vec<f64>>,
-    /// Rows a second, where there is no time.
+    /// Rows a second; no column is the time then, unless it is told.
     pub rate: Option<f64>,
     /// Joints without unit are degrees.
     pub degrees: bool,
@@ -248,6 +248,8 @@ impl Roles {
         let unknown = |what| NoColumns::Unknown(what, names.iter().map(|n| (*n).to_string()).collect());
         let time = match by(&told.time)? {
             Some(columns) => columns.first().copied(),
+            // What is told of the rate is so whatever a column says.
+            None if told.rate.is_some() => None,
             None => one(TIMES),
         };
         if time.is_none() && told.rate.is_none() {

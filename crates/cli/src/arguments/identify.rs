@@ -21,7 +21,7 @@ pub struct IdentifyArguments {
     /// The column of the time
     #[arg(long, value_name = "COLUMN")]
     pub time: Option<String>,
-    /// Rows a second, where there is no time
+    /// Rows a second: no column is taken for the time
     #[arg(long, value_name = "HZ", value_parser = positive, conflicts_with = "time")]
     pub rate: Option<f64>,
     /// The columns of the joints: names with commas, or `first..last`

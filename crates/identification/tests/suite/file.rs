@@ -93,7 +93,12 @@ fn columns_are_known_by_their_names_and_units() {
         column("lift_effort", None, &x),
     ];
     let roles = Roles::find(&named, &joints, &told).expect("known");
-    assert_eq!((roles.joints, roles.torques), (vec![1, 2], vec![3, 4]));
+    assert_eq!((roles.time, roles.joints, roles.torques), (Some(0), vec![1, 2], vec![3, 4]));
+    // The rate that is told, not the time.
+    let told_rate = Told { rate: Some(500.0), ..Told::default() };
+    let roles = Roles::find(&named, &joints, &told_rate).expect("known");
+    assert_eq!(roles.time, None);
+    assert_eq!(roles.columns(&named, &joints, &told_rate).expect("units").time, [0.0, 0.002, 0.004]);
     // Currents without gains, units of something else, columns that are not there.
     let currents = [
         column("t", None, &x),
