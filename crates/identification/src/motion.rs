@@ -83,8 +83,9 @@ pub enum Remark {
     Turns(usize),
     /// Stretches too short for the filter.
     Short(usize),
-    /// The columns of the joints hold degrees; so many times larger is what is left over where they are taken for radians.
-    Degrees(f64),
+    /// Columns of the joints without unit hold degrees; so many times larger is what is left over where they are taken for
+    /// radians, or they are no motion then.
+    Degrees(Option<f64>),
 }
 
 /// Why columns are no motion.

@@ -171,6 +171,11 @@ fn units_of_columns_count() {
     let (_, robot, file) = files("units", &data);
     let (code, out, err) = run(&["identify", &robot, &file]);
     assert_eq!(code, 0, "{out}{err}");
+    // A second file that does not say degrees, behind one that does.
+    let (_, _, other) = files("other", &data.replace(" [deg]", ""));
+    let (code, out, err) = run(&["identify", &robot, &file, &other]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("taken for degrees"), "{out}");
     // Not said, degrees are found.
     let bare = data.replace(" [deg]", "").replace(" [N mm]", "").replace(" [ms]", "");
     let (_, robot, file) = files("bare", &bare);

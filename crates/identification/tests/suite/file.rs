@@ -85,6 +85,13 @@ fn columns_are_known_by_their_names_and_units() {
     assert!((si.q[0][0] - 1_f64.to_radians()).abs() < 1e-15 && (si.q[1][0] - 1e-3).abs() < 1e-15);
     assert!((si.qd.as_ref().expect("rates")[0][0] - 0.104_719_755).abs() < 1e-9);
     assert!((si.tau[0][0] - 1e-3).abs() < 1e-15 && (si.tau[1][0] - 1e3).abs() < 1e-12);
+    // Degrees where no unit is said, and there alone.
+    let mut bare = all.clone();
+    bare[1].unit = None;
+    let in_degrees = Told { degrees: true, ..Told::default() };
+    let si = roles.columns(&bare, &joints, &in_degrees).expect("units");
+    assert!((si.q[0][0] - 1_f64.to_radians()).abs() < 1e-15 && (si.q[1][0] - 1e-3).abs() < 1e-15);
+    assert!((si.qd.expect("rates")[0][0] - 0.104_719_755).abs() < 1e-9);
     let named = [
         column("t", None, &[0.0, 0.1, 0.2]),
         column("shoulder_pos", None, &x),
