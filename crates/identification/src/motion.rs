@@ -166,7 +166,7 @@ impl Motion {
             pass.as_ref().map_or(0, |p| 3 * p.settles / 2) + if columns.qdd.is_some() { 0 } else { EDGE };
         // The ends that the second filter spoils, and two rows between them.
         let second = parallel.map_or(0, |(f, _)| ((2.0 + 2.0 / ROWS) * rate / f) as usize);
-        let needed = (2 * edge + second + 8).max(LEAST);
+        let needed = (2 * edge + 8).max(LEAST).saturating_add(second);
         let longest = pieces.iter().map(|p| p.q[0].len()).max().unwrap_or(0);
         if longest < needed {
             return Err(NoMotion::Short { longest, needed });

@@ -131,6 +131,12 @@ fn orientations() {
             calibrate(&prepared.problem, &visible, &prepared.measured, &options).expect("an estimate");
         assert_eq!(found.unseen.len(), 0);
         assert!((found.noise[0] / 1e-4 - 1.0).abs() < 0.3, "{:?}", found.noise);
+        assert!(found.held_out.is_some());
+        // More parts than rows are none.
+        let options = CalibrateOptions { folds: usize::MAX, ..options };
+        let found =
+            calibrate(&prepared.problem, &visible, &prepared.measured, &options).expect("an estimate");
+        assert_eq!(found.held_out, None);
     }
 }
 

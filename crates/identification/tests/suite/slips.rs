@@ -2,7 +2,7 @@
 
 use crate::made::{Setting, Truth, USUAL, recording, truth};
 use denavit::geometry::Vector;
-use denavit_identification::{Asked, Columns, NoMotion, Remark, Sought, Suspect, identify};
+use denavit_identification::{Asked, Columns, Cutoff, NoMotion, Remark, Sought, Suspect, identify};
 
 fn found(truth: &Truth, columns: &Columns) -> Vec<Suspect> {
     identify(&truth.model, columns, &Asked::default()).expect("motion").suspects
@@ -121,6 +121,10 @@ fn columns_that_are_no_motion() {
             ..Columns::default()
         }
     };
+    for slow in [1e-17, f64::MIN_POSITIVE] {
+        let asked = Asked { cutoff: Cutoff::At(slow), ..Asked::default() };
+        assert!(matches!(identify(&truth.model, &columns, &asked), Err(NoMotion::Short { .. })));
+    }
     assert!(matches!(ask(&short(0)), Err(NoMotion::Rows { .. })));
     assert!(matches!(ask(&short(20)), Err(NoMotion::Rows { .. })));
     let _ = ask(&short(60));
