@@ -224,12 +224,7 @@ fn a_motion_within_limits() {
     }
     let first = std::fs::read_to_string(&written).expect("a file");
     let mut lines = first.lines();
-    assert_eq!(
-        lines.next(),
-        Some(
-            "t,q1,q2,q3,q1_velocity,q2_velocity,q3_velocity,q1_acceleration,q2_acceleration,q3_acceleration"
-        )
-    );
+    assert_eq!(lines.next(), Some("t,q1,q2,q3,qd1,qd2,qd3,qdd1,qdd2,qdd3"));
     let rows: Vec<Vec<f64>> =
         lines.map(|l| l.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), 801);
@@ -242,6 +237,10 @@ fn a_motion_within_limits() {
     for row in [&rows[0], &rows[800]] {
         assert!(row[4..].iter().all(|x| x.abs() < 1e-9), "{row:?}");
     }
+    // The names are those that other verbs read.
+    let torques = folder.join("torques.csv");
+    let (code, out, err) = run(&["map", &robot, &name, "--torque", "-o", &torques.to_string_lossy()]);
+    assert_eq!(code, 0, "{out}{err}");
     run(&arguments);
     assert_eq!(first, std::fs::read_to_string(&written).expect("a file"));
     // The verb's own motion, simulated, identifies the arm: the columns are known by their names.

@@ -6,6 +6,7 @@ use denavit::dynamics::{Dynamics, drive_torques};
 use denavit_identification::{
     Asked, Column, Joints, NoColumns, Prior, Roles, Sought, Told, consistent, described, identify,
 };
+use denavit_recording::RolesError;
 
 #[test]
 fn the_written_robot_has_the_recorded_torques() {
@@ -101,6 +102,14 @@ fn columns_are_known_by_their_names_and_units() {
     ];
     let roles = Roles::find(&named, &joints, &told).expect("known");
     assert_eq!((roles.time, roles.joints, roles.torques), (Some(0), vec![1, 2], vec![3, 4]));
+    // Hours are no step of a recording.
+    let mut hours = all.clone();
+    hours[0].unit = Some("h".into());
+    let why = Roles::find(&hours, &joints, &told)
+        .expect("known")
+        .columns(&hours, &joints, &told)
+        .expect_err("hours");
+    assert!(matches!(why, NoColumns::Unit { what: "time", .. }), "{why:?}");
     // The rate that is told, not the time.
     let told_rate = Told { rate: Some(500.0), ..Told::default() };
     let roles = Roles::find(&named, &joints, &told_rate).expect("known");
@@ -123,8 +132,14 @@ fn columns_are_known_by_their_names_and_units() {
     wrong[1].unit = Some("mm".into());
     let roles = Roles::find(&wrong, &joints, &told).expect("known");
     assert!(matches!(roles.columns(&wrong, &joints, &told), Err(NoColumns::Unit { .. })));
-    assert!(matches!(Roles::find(&all[..5], &joints, &told), Err(NoColumns::Unknown("torques", _))));
-    assert!(matches!(Roles::find(&all[1..], &joints, &told), Err(NoColumns::Unknown("time", _))));
+    assert!(matches!(
+        Roles::find(&all[..5], &joints, &told),
+        Err(NoColumns::Roles(RolesError::Unknown("torques", _)))
+    ));
+    assert!(matches!(
+        Roles::find(&all[1..], &joints, &told),
+        Err(NoColumns::Roles(RolesError::Unknown("time", _)))
+    ));
     let off = Told { torques: Some("nothing".into()), ..Told::default() };
-    assert!(matches!(Roles::find(&all, &joints, &off), Err(NoColumns::Told(_))));
+    assert!(matches!(Roles::find(&all, &joints, &off), Err(NoColumns::Roles(RolesError::NoColumn(..)))));
 }
