@@ -15,7 +15,7 @@ pub struct IdentifyArguments {
     /// The robot.
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The recordings (.csv, .tsv, .jsonl, .npy, .npz, .parquet); several are taken together
+    /// The recordings (.csv, .tsv, .jsonl, .npy, .npz, .parquet, the folder of a data set of LeRobot); several are taken together
     #[arg(value_name = "DATA", required_unless_present = "excite", conflicts_with = "excite")]
     pub data: Vec<PathBuf>,
     /// The column of the time

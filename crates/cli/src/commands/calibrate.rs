@@ -1,13 +1,13 @@
 //! `denavit calibrate`: the geometry of an arm out of measurements.
 
 use crate::arguments::{CalibrateArguments, MeasureName};
-use crate::commands::check::lerobot;
-use crate::commands::check::recording::{bytes_of, column, write_whole};
+use crate::commands::check::recording::{bytes_of, column, say_remarks, whole_table, write_whole};
+use crate::commands::fk;
 use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::note;
 use denavit::Description;
-use denavit::description::{Decimals, Measure, Mechanism, read_urdf, read_value, write_urdf};
+use denavit::description::{Decimals, Measure, Mechanism, read_urdf, write_urdf};
 use denavit::geometry::{Transform, Vector};
 use denavit_calibration::measured::{NoMeasurements, Prepared, What, prepare, slips};
 use denavit_calibration::visible::supposed;
@@ -101,14 +101,11 @@ fn what(arguments: &CalibrateArguments) -> Result<What, Failure> {
 
 /// A number with its unit.
 fn value(text: &str, measure: Measure) -> Result<f64, Failure> {
-    let wrong = || {
-        Failure::Usage(format!(
-            "`{text}` is no {}",
-            if measure == Measure::Angle { "angle" } else { "length" }
-        ))
-    };
-    let read = read_value(text, measure).map_err(|_| wrong())?;
-    read.eval(|_| None).map_err(|_| wrong())
+    let found = load::value_of(text, measure).and_then(fk::value);
+    found.map_err(|why| {
+        let what = if measure == Measure::Angle { "angle" } else { "length" };
+        Failure::Usage(format!("`{text}` is no {what}: {why}"))
+    })
 }
 
 /// The deviations that are told: of an angle, and of a length.
@@ -233,19 +230,8 @@ fn measured(
 ) -> Result<(), Failure> {
     let name = file.to_string_lossy().into_owned();
     let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
-    let table = if lerobot::is_one(file) {
-        lerobot::table(file)?
-    } else {
-        let Some(kind) = Kind::of(&name) else {
-            return Err(failed(
-                &"what is this?\n  = hint: measurements stand in .csv, .tsv, .jsonl, .npy, .npz or .parquet",
-            ));
-        };
-        denavit_tables::read(&bytes_of(&name)?, kind).map_err(|e| failed(&e))?
-    };
-    for remark in &table.remarks {
-        note(&format!("note: {name}: {remark}"));
-    }
+    let table = whole_table(file)?;
+    say_remarks(&name, &table);
     let is_text = matches!(Kind::of(&name), Some(Kind::Csv));
     let (first_row, row) = (table.first_row, if is_text { "line" } else { "row" });
     let recording = Recording { columns: table.columns.into_iter().map(column).collect() };

@@ -4,7 +4,7 @@ mod excite;
 mod report;
 
 use crate::arguments::{IdentifyArguments, PriorName};
-use crate::commands::check::recording::{bytes_of, write_whole};
+use crate::commands::check::recording::{say_remarks, whole_table, write_whole};
 use crate::commands::dynamics::gravity;
 use crate::commands::dynamics::tree::unknown;
 use crate::commands::fk::tree::{bodies, kind};
@@ -19,7 +19,6 @@ use denavit_identification::{
     Asked, Column, Columns, Cutoff, Joints, Known, Model, NoModel, NoPlace, Options, Prior, Roles, Sought,
     Told, consistent, described, identify, words,
 };
-use denavit_tables::{Kind, Table};
 use denavit_wire::identification as wire;
 use std::io::Write;
 
@@ -58,10 +57,8 @@ pub fn run(arguments: &IdentifyArguments) -> Result<(), Failure> {
     for file in &arguments.data {
         let name = file.to_string_lossy().into_owned();
         let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
-        let table = table_of(&name)?;
-        for remark in &table.remarks {
-            note(&format!("note: {name}: {remark}"));
-        }
+        let table = whole_table(file)?;
+        say_remarks(&name, &table);
         let all: Vec<Column> = table
             .columns
             .into_iter()
@@ -282,16 +279,6 @@ fn cutoff(text: Option<&str>) -> Result<Cutoff, Failure> {
         Ok(f) if f.is_finite() && f > 0.0 => Ok(Cutoff::At(f)),
         _ => Err(Failure::Usage(format!("--cutoff {text}: a frequency in Hz above 0, or none"))),
     }
-}
-
-/// The table of a recording.
-fn table_of(name: &str) -> Result<Table, Failure> {
-    let Some(kind) = Kind::of(name) else {
-        return Err(Failure::Input(format!(
-            "error: {name}: what is this?\n  = hint: a recording is .csv, .tsv, .jsonl, .npy, .npz or .parquet"
-        )));
-    };
-    denavit_tables::read(&bytes_of(name)?, kind).map_err(|e| Failure::Input(format!("error: {name}: {e}")))
 }
 
 /// Whether two recordings have the same columns.
