@@ -29,14 +29,14 @@ pub struct CalibrateArguments {
     #[arg(long)]
     pub gains: bool,
     /// Deviations of the measurement that are known, of an angle, a length or both, as in `--noise "0.1mm, 0.02deg"`; found in the
-    /// residuals otherwise
+    /// residuals otherwise, and with --choose those of a good tracker
     #[arg(long, value_name = "NOISE")]
     pub noise: Option<String>,
     /// Some rows may be grossly wrong: Tukey's biweight
-    #[arg(long)]
+    #[arg(long, requires = "file")]
     pub robust: bool,
     /// In how many parts rows are held out to judge by; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    #[arg(long, value_name = "N", default_value_t = 5, requires = "file")]
     pub folds: usize,
     /// Choose so many configurations to measure at, within the joints' limits
     #[arg(long, value_name = "N", conflicts_with = "file")]
@@ -63,13 +63,13 @@ pub struct CalibrateArguments {
     #[arg(long, requires = "distance")]
     pub offset: bool,
     /// The column that tells several planes or centres apart
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", requires = "file")]
     pub group: Option<String>,
     /// A recipe of `check --recipe` that makes the columns the robot's
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "file")]
     pub recipe: Option<PathBuf>,
     /// Take the columns as they are said, without looking for slips
-    #[arg(long, conflicts_with = "recipe")]
+    #[arg(long, conflicts_with = "recipe", requires = "file")]
     pub unchecked: bool,
     /// Print JSON
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! `denavit calibrate`: the geometry of an arm out of measurements.
 
 use crate::arguments::{CalibrateArguments, MeasureName};
-use crate::commands::check::recording::{bytes_of, column, say_remarks, whole_table, write_whole};
+use crate::commands::check::recording::{bytes_of, column, ends_in, say_remarks, whole_table, write_whole};
 use crate::commands::fk;
 use crate::failure::{Failure, without_values};
 use crate::load;
@@ -38,6 +38,17 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
         return Err(Failure::Unsupported(format!("{robot} has no joints")));
     }
     let what = what(arguments)?;
+    let of_noise = arguments.noise.as_ref().filter(|_| arguments.choose.is_none()).map(|_| "--noise");
+    if let (None, Some(option)) = (&arguments.file, arguments.columns.given().or(of_noise)) {
+        return Err(Failure::Usage(format!("{option} is for measurements: say in which file they stand")));
+    }
+    if let Some(output) = &arguments.output {
+        match (&arguments.file, arguments.choose) {
+            (Some(_), _) => ends_in(output, &["toml", "urdf"], "the calibrated arm")?,
+            (None, Some(_)) => ends_in(output, &["csv"], "the list of configurations")?,
+            (None, None) => return Err(Failure::Usage("-o needs measurements, or --choose".into())),
+        }
+    }
     match (&arguments.file, arguments.choose) {
         (Some(file), _) => measured(arguments, &description, &arm, what, file),
         (None, Some(count)) => chosen(arguments, &description, &arm, &what, count),
@@ -137,9 +148,6 @@ fn seen(
     arm: &Arm,
     what: &What,
 ) -> Result<(), Failure> {
-    if arguments.output.is_some() {
-        return Err(Failure::Usage("-o needs measurements, or --choose".into()));
-    }
     let (problem, seen) = structure(arm, what)?;
     let table = table_seen(description, &problem, &seen).map_err(|e| no_table(&e))?;
     let mut out = anstream::stdout();
@@ -364,7 +372,6 @@ impl<'a> Written<'a> {
     /// The text for a file of this ending.
     fn in_format(&self, output: &Path) -> Result<String, Failure> {
         match output.extension().and_then(|e| e.to_str()) {
-            Some("toml") => Ok(self.text.clone()),
             Some("urdf") => {
                 let bodies =
                     Mechanism::of(&self.back).map_err(|missing| no_table(&NoTable::Missing(missing)))?;
@@ -388,10 +395,7 @@ impl<'a> Written<'a> {
                     by => Err(no_table(&NoTable::NotBack(by.unwrap_or(f64::INFINITY)))),
                 }
             }
-            _ => Err(Failure::Usage(format!(
-                "-o {}: the calibrated arm is written as .toml or .urdf",
-                output.display()
-            ))),
+            _ => Ok(self.text.clone()),
         }
     }
 }

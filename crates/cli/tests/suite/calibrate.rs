@@ -179,6 +179,26 @@ fn rows_that_are_far_off() {
     assert_eq!(out.matches("left aside").count(), 29, "{out}");
 }
 
+/// An option that would change nothing is a mistake.
+#[test]
+fn options_without_what_they_are_for() {
+    let check = |arguments: &[&str], part: &str| {
+        let (code, _, err) = run(&[&["calibrate", "ur5"], arguments].concat());
+        assert_eq!((code, err.contains(part)), (2, true), "{arguments:?}: {err}");
+    };
+    for option in ["--robust", "--folds=3", "--recipe=r.toml", "--unchecked"] {
+        check(&[option], "<FILE>");
+        check(&[option, "--choose", "4"], "<FILE>");
+    }
+    check(&["--group=g", "--measure=plane"], "<FILE>");
+    check(&["--joints", "q1..q6"], "--joints is for measurements");
+    check(&["--choose", "4", "--time", "t"], "--time is for measurements");
+    check(&["--noise", "0.1mm"], "--noise is for measurements");
+    check(&["--choose", "4", "-o", "x.toml"], "the list of configurations is written as .csv");
+    // Before anything is read.
+    check(&["nowhere.csv", "-o", "x.json"], "the calibrated arm is written as .toml or .urdf");
+}
+
 #[test]
 fn poses_to_measure_at() {
     let run_with =

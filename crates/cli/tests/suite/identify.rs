@@ -207,6 +207,20 @@ fn bad_input_is_told_with_its_place() {
     std::fs::write(&empty, "t,q1,q2,q3,tau1,tau2,tau3\n0,0,0,0,0,0,0\n").expect("a file");
     check(&[&robot, &empty.to_string_lossy()], 3, "1 of 1 rows");
     check(&[&robot, "--excite"], 2, "--velocity");
+    for option in [
+        "--gains=2",
+        "--cutoff=3",
+        "--time=t",
+        "--rate=9",
+        "--joints=a..c",
+        "--robust",
+        "--prior=file",
+        "--degrees",
+    ] {
+        check(&[&robot, "--excite", option], 2, "cannot be used with");
+    }
+    check(&[&robot, "--excite", "-o", "x.toml"], 2, "the motion is written as .csv");
+    check(&[&robot, &file, "-o", "x.csv"], 2, "the robot is written as .toml");
     check(&[&robot, "--excite", "--velocity", "1", "--acceleration", "3", "--range", "1..-1"], 2, "is empty");
 }
 

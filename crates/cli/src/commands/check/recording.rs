@@ -184,6 +184,20 @@ fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm
     Ok(())
 }
 
+/// Whether a file has one of these endings.
+///
+/// # Errors
+/// If it has another one; `what` is what would be written.
+pub fn ends_in(file: &Path, endings: &[&str], what: &str) -> Result<(), Failure> {
+    match file.extension().and_then(|e| e.to_str()) {
+        Some(own) if endings.contains(&own) => Ok(()),
+        _ => {
+            let list = endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" or ");
+            Err(Failure::Usage(format!("-o {}: {what} is written as {list}", file.display())))
+        }
+    }
+}
+
 /// Writes a file whole or not at all.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ mod excite;
 mod report;
 
 use crate::arguments::{IdentifyArguments, PriorName};
-use crate::commands::check::recording::{say_remarks, whole_table, write_whole};
+use crate::commands::check::recording::{ends_in, say_remarks, whole_table, write_whole};
 use crate::commands::dynamics::gravity;
 use crate::commands::dynamics::tree::unknown;
 use crate::commands::fk::tree::{bodies, kind};
@@ -44,6 +44,12 @@ pub struct Subject {
 /// 1 if a recording is suspect, 3 if something cannot be read, 4 for closed loops.
 pub fn run(arguments: &IdentifyArguments) -> Result<(), Failure> {
     let subject = if arguments.whole { tree(arguments)? } else { arm(arguments)? };
+    if let Some(output) = &arguments.output {
+        match arguments.excite {
+            true => ends_in(output, &["csv"], "the motion")?,
+            false => ends_in(output, &["toml"], "the robot")?,
+        }
+    }
     if arguments.excite {
         return excite::run(&subject, arguments);
     }
