@@ -69,6 +69,8 @@ pub struct Found {
     pub deviation_of_hand: Option<[f64; 2]>,
     /// The errors.
     pub errors: Vec<Error>,
+    /// Of the rows that are whole each so many-th was used.
+    pub every: usize,
     /// The robot file.
     pub file: String,
     /// The same on rows that were held out, before and behind.
@@ -213,13 +215,13 @@ fn letter(cell: Cell) -> &'static str {
 }
 
 impl Found {
-    /// Of an estimate; `rows` are the numbers of the rows in the recording.
+    /// Of an estimate; `rows` are the numbers of the rows in the recording, of which each so many-th was used.
     pub fn of(
         [recording, robot, file]: [&str; 3],
         problem: &Problem,
         visible: &Visible,
         found: &Calibrated,
-        rows: &[usize],
+        (rows, every): (&[usize], usize),
         hand: Option<[f64; 2]>,
     ) -> Self {
         let last = problem.last();
@@ -237,6 +239,7 @@ impl Found {
             computed: found.is_computed,
             deviation_of_hand: hand,
             errors: found.estimates.iter().map(error).collect(),
+            every,
             file: file.into(),
             held_out: found.held_out.as_ref().map(|[a, b]| [off(a), off(b)]),
             measure: measure(problem.measurement),

@@ -274,7 +274,7 @@ fn measured(
     if let Some(held) = &prepared.held {
         held.findings.iter().for_each(|f| note(&format!("note: {name}: {}", finding(f, held, &names))));
     }
-    let Prepared { problem, measured, rows, left, base, tool, .. } = &prepared;
+    let Prepared { problem, measured, rows, left, every, base, tool, .. } = &prepared;
     let seen = visible(problem);
     let options = CalibrateOptions {
         noise: arguments.noise.as_deref().map(noise).transpose()?,
@@ -290,7 +290,7 @@ fn measured(
     let mut out = anstream::stdout();
     if arguments.json {
         let texts = [name.as_str(), description.name.as_str(), written.text.as_str()];
-        let answer = wire::Found::of(texts, problem, &seen, &found, rows, hand);
+        let answer = wire::Found::of(texts, problem, &seen, &found, (rows, *every), hand);
         writeln!(out, "{}", denavit_wire::text(&answer))?;
     } else {
         writeln!(
@@ -302,6 +302,9 @@ fn measured(
         )?;
         if *left > 0 {
             writeln!(out, "  {left} rows are left out: a number is missing, or the pose jumps")?;
+        }
+        if *every > 1 {
+            writeln!(out, "  of the rows that are whole one in {every} is used, evenly spread")?;
         }
         let frames = [
             ("the base stands elsewhere in what is measured", base),
