@@ -71,18 +71,31 @@ pub fn calibrate(
     })
 }
 
-/// How far the hand is off, one deviation, over configurations at random: the mean and the most, metres.
-pub fn deviation_of_hand(
+/// How many configurations at random the deviation of the hand is looked at in.
+pub const LOOKED_AT: usize = 100;
+
+/// How far the hand is off, one deviation, in [`LOOKED_AT`] configurations at random: the mean and the most among them, metres.
+/// None where orientations alone are measured, which say nothing of lengths, where things stand beside the arm, and where these
+/// rows do not show everything.
+pub fn deviation_of_hand(problem: &Problem, visible: &Visible, found: &Calibrated) -> Option<[f64; 2]> {
+    found.unseen.is_empty().then(|| spread_of_hand(problem, visible, &found.state, &found.covariance))?
+}
+
+/// The same of a covariance.
+pub fn spread_of_hand(
     problem: &Problem,
     visible: &Visible,
     state: &State,
     covariance: &[Vec<f64>],
-) -> [f64; 2] {
+) -> Option<[f64; 2]> {
+    if problem.measurement == Measurement::Orientation || problem.measurement.of_fixture() > 0 {
+        return None;
+    }
     let free = Problem { measurement: Measurement::Position, fixtures: vec![], ..problem.clone() };
     let constants = problem.constants_at(state);
     let state = State { x: state.x.clone(), fixtures: vec![] };
     let mut all = vec![];
-    for q in free.samples(100, 9) {
+    for q in free.samples(LOOKED_AT, 9) {
         let (_, rows) = free.derivatives(&state, &constants, &q, 0);
         let variance: f64 = rows
             .iter()
@@ -93,8 +106,8 @@ pub fn deviation_of_hand(
             .sum();
         all.push(variance.max(0.0).sqrt());
     }
-    let n = all.len().max(1) as f64;
-    [all.iter().sum::<f64>() / n, all.iter().copied().fold(0.0, f64::max)]
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    mean.is_finite().then(|| [mean, all.iter().copied().fold(0.0, f64::max)])
 }
 
 /// The information of one configuration, over the noise, in units of what is usual: rows of derivatives.

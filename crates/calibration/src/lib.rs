@@ -21,7 +21,7 @@ mod work;
 
 pub use cells::{Place, TableSeen, Tied, table_seen};
 pub use estimate::{CalibrateError, CalibrateOptions, Calibrated, Estimate, Measured, Off, PRIOR};
-pub use fit::{calibrate, deviation_of_hand};
+pub use fit::{LOOKED_AT, calibrate, deviation_of_hand};
 pub use measurement::{Bar, Fixture, Measurement, Reading};
 pub use model::{Parameter, Problem, State};
 pub use poses::{Chosen, choose_poses};

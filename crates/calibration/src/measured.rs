@@ -17,6 +17,10 @@ use denavit_recording::{
 
 /// The most rows that are used, evenly spread.
 const MOST: usize = 3000;
+/// The fewest rows that are whole.
+const LEAST: usize = 6;
+/// The most rows in which the format of an orientation is looked for.
+const OF_FORMAT: usize = 200;
 
 /// What is measured, and which columns beside those of the recording's roles hold it.
 #[derive(Clone, Debug)]
@@ -37,6 +41,8 @@ pub struct What {
     pub recipe: Option<Recipe>,
     /// Whether the columns are taken as they are said, without a search for slips.
     pub is_unchecked: bool,
+    /// Whether rows may be grossly wrong: the estimate weighs them.
+    pub is_robust: bool,
 }
 
 /// Measurements, and what they are measurements of.
@@ -50,6 +56,8 @@ pub struct Prepared {
     pub rows: Vec<usize>,
     /// How many rows have a number missing, or are left out.
     pub left: usize,
+    /// Of the others each so many-th is used.
+    pub every: usize,
     /// The robot's base in what is measured.
     pub base: Transform<f64>,
     /// The measured frame in the robot's tool.
@@ -61,11 +69,12 @@ pub struct Prepared {
 }
 
 /// Slips that leave the measurements what they are: frames, numbers of the arm itself, rows that are left out or weighed.
-fn is_let_pass(slip: &Slip, gains: bool) -> bool {
+fn is_let_pass(slip: &Slip, what: &What) -> bool {
     match slip {
         Slip::Base(_) | Slip::Tool(_) | Slip::Zero(..) | Slip::Length(_) => true,
-        Slip::Spikes(_) | Slip::Missing(_) | Slip::Apart(..) | Slip::TimeBack(_) | Slip::Gaps(_) => true,
-        Slip::GainBy(..) => gains,
+        Slip::Spikes(_) | Slip::Missing(_) | Slip::TimeBack(_) | Slip::Gaps(_) => true,
+        Slip::Apart(..) => what.is_robust,
+        Slip::GainBy(..) => what.gains,
         _ => false,
     }
 }
@@ -76,9 +85,9 @@ fn is_frame(slip: &Slip) -> bool {
 }
 
 /// The slips of a recording that calibration cannot pass.
-pub fn slips(held: &Held, gains: bool) -> Vec<&Finding> {
+pub fn slips<'a>(held: &'a Held, what: &What) -> Vec<&'a Finding> {
     // A zero at an end is a turn of base or tool.
-    let passes = |f: &Finding| is_let_pass(&f.slip, gains) || f.same.iter().any(is_frame);
+    let passes = |f: &Finding| is_let_pass(&f.slip, what) || f.same.iter().any(is_frame);
     held.findings.iter().filter(|f| !passes(f)).collect()
 }
 
@@ -92,28 +101,12 @@ pub fn prepare(
     roles: &Roles,
     what: &What,
 ) -> Result<Prepared, NoMeasurements> {
+    let columns = Columns::new(arm, recording, roles, what)?;
     if what.measurement == Measurement::Pose {
-        return poses(arm, recording, roles, what);
+        return poses(arm, &columns, what);
     }
     if what.recipe.is_some() {
         return Err(NoMeasurements::Recipe);
-    }
-    let rows = recording.columns.first().map_or(0, |c| c.values.len());
-    if recording.columns.iter().any(|c| c.values.len() != rows) {
-        return Err(NoMeasurements::Hold(HoldError::Lengths));
-    }
-    if what.measurement == Measurement::Position && roles.position.len() != 3 {
-        return Err(NoMeasurements::Hold(HoldError::Position(roles.position.len())));
-    }
-    let number = |c: usize, r: usize| {
-        let column = &recording.columns[c];
-        column.values[r] * column.said.map_or(1.0, Said::si)
-    };
-    if roles.joints.len() != arm.joints() {
-        return Err(NoMeasurements::Hold(HoldError::Joints {
-            found: roles.joints.len(),
-            needed: arm.joints(),
-        }));
     }
     let mut needed = roles.joints.clone();
     match what.measurement {
@@ -125,14 +118,11 @@ pub fn prepare(
         _ => {}
     }
     needed.extend(what.group);
-    let whole: Vec<usize> =
-        (0..rows).filter(|&r| needed.iter().all(|&c| recording.columns[c].values[r].is_finite())).collect();
-    if whole.len() < 6 {
-        return Err(NoMeasurements::Rows(whole.len(), rows));
-    }
-    let used: Vec<usize> = whole.iter().copied().step_by(whole.len().div_ceil(MOST).max(1)).collect();
-    let joints: Vec<Vec<f64>> =
-        used.iter().map(|&r| roles.joints.iter().map(|&c| number(c, r)).collect()).collect();
+    let whole = columns.whole(&needed)?;
+    let every = whole.len().div_ceil(MOST);
+    let used: Vec<usize> = whole.iter().copied().step_by(every).collect();
+    let joints = columns.joints(&used);
+    let number = |c: usize, r: usize| columns.number(c, r);
     let groups = Groups::new(what.group.map(|c| used.iter().map(|&r| number(c, r)).collect()), used.len());
     if groups.count > MOST_GROUPS {
         return Err(NoMeasurements::Groups(groups.count));
@@ -150,12 +140,7 @@ pub fn prepare(
             base = base_of_points(&problem, &joints, &readings)?;
         }
         Measurement::Orientation => {
-            let raw: Vec<Vec<f64>> = used
-                .iter()
-                .map(|&r| roles.rotation.iter().map(|&c| recording.columns[c].values[r]).collect())
-                .collect();
-            let known = roles.rotation.first().and_then(|&c| recording.columns[c].said);
-            let (found, turns) = format_of(&problem, &joints, &raw, known)?;
+            let (found, turns) = columns.format(&problem, &used)?;
             format = Some(found);
             readings.iter_mut().zip(turns).for_each(|(reading, turn)| reading.turn = turn);
             (base, tool) = turned_frames(&problem, &joints, &readings)?;
@@ -171,45 +156,98 @@ pub fn prepare(
     if what.measurement.is_on_surface() {
         problem.near = joints.iter().cloned().zip(groups.of.iter().copied()).collect();
     }
-    let episodes = used.iter().map(|&r| episode(recording, roles, r)).collect();
+    let episodes = used.iter().map(|&r| columns.episode(r)).collect();
     let measured = Measured { joints, readings, episodes };
-    Ok(Prepared { problem, measured, left: rows - whole.len(), rows: used, base, tool, format, held: None })
+    let left = columns.rows - whole.len();
+    Ok(Prepared { problem, measured, left, every, rows: used, base, tool, format, held: None })
+}
+
+/// The columns of a recording that are what the measurement needs.
+struct Columns<'a> {
+    recording: &'a Recording,
+    roles: &'a Roles,
+    rows: usize,
+}
+
+impl<'a> Columns<'a> {
+    /// If there are as many as are needed, all of one length.
+    fn new(
+        arm: &Arm,
+        recording: &'a Recording,
+        roles: &'a Roles,
+        what: &What,
+    ) -> Result<Self, NoMeasurements> {
+        let rows = recording.columns.first().map_or(0, |c| c.values.len());
+        if recording.columns.iter().any(|c| c.values.len() != rows) {
+            return Err(NoMeasurements::Hold(HoldError::Lengths));
+        }
+        let has_position = matches!(what.measurement, Measurement::Position | Measurement::Pose);
+        if has_position && roles.position.len() != 3 {
+            return Err(NoMeasurements::Hold(HoldError::Position(roles.position.len())));
+        }
+        // A column that is no joint's may stand among them, where slips are searched for or a recipe says which are.
+        let may_have_more =
+            what.measurement == Measurement::Pose && (what.recipe.is_some() || !what.is_unchecked);
+        let (found, needed) = (roles.joints.len(), arm.joints());
+        if found != needed && !may_have_more {
+            return Err(NoMeasurements::Hold(HoldError::Joints { found, needed }));
+        }
+        Ok(Columns { recording, roles, rows })
+    }
+
+    /// A number in SI.
+    fn number(&self, c: usize, r: usize) -> f64 {
+        let column = &self.recording.columns[c];
+        column.values[r] * column.said.map_or(1.0, Said::si)
+    }
+
+    /// The rows in which all of these are numbers.
+    fn whole(&self, needed: &[usize]) -> Result<Vec<usize>, NoMeasurements> {
+        let is_number = |c: &usize, r: usize| self.recording.columns[*c].values[r].is_finite();
+        let whole: Vec<usize> = (0..self.rows).filter(|&r| needed.iter().all(|c| is_number(c, r))).collect();
+        if whole.len() < LEAST { Err(NoMeasurements::Rows(whole.len(), self.rows)) } else { Ok(whole) }
+    }
+
+    fn joints(&self, rows: &[usize]) -> Vec<Vec<f64>> {
+        rows.iter().map(|&r| self.roles.joints.iter().map(|&c| self.number(c, r)).collect()).collect()
+    }
+
+    /// How the orientation is written, and the orientations of these rows.
+    fn format(
+        &self,
+        problem: &Problem,
+        rows: &[usize],
+    ) -> Result<(Format, Vec<Rotation<f64>>), NoMeasurements> {
+        let rotation = &self.roles.rotation;
+        let as_it_stands =
+            |&r: &usize| rotation.iter().map(|&c| self.recording.columns[c].values[r]).collect();
+        let raw: Vec<Vec<f64>> = rows.iter().map(as_it_stands).collect();
+        let known = rotation.first().and_then(|&c| self.recording.columns[c].said);
+        format_of(problem, &self.joints(rows), &raw, known)
+    }
+
+    fn episode(&self, r: usize) -> usize {
+        self.roles.episode.map_or(0, |c| self.recording.columns[c].values[r].max(0.0) as usize)
+    }
 }
 
 /// Full poses.
-fn poses(arm: &Arm, recording: &Recording, roles: &Roles, what: &What) -> Result<Prepared, NoMeasurements> {
+fn poses(arm: &Arm, of: &Columns, what: &What) -> Result<Prepared, NoMeasurements> {
+    let Columns { recording, roles, rows: all } = *of;
     let mut held = None;
     let plain = Recipe::plain(recording, roles, arm);
     let recipe = match (&what.recipe, what.is_unchecked) {
         (Some(recipe), _) => recipe.clone(),
         (None, true) => {
-            let known = roles.rotation.first().and_then(|&c| recording.columns[c].said);
-            let rows = recording.columns.first().map_or(0, |c| c.values.len());
-            let number = |c: usize, r: usize| {
-                recording.columns[c].values[r] * recording.columns[c].said.map_or(1.0, Said::si)
-            };
-            let is_whole = |r: &usize| {
-                let columns = roles.joints.iter().chain(&roles.rotation);
-                columns.into_iter().all(|&c| recording.columns[c].values[*r].is_finite())
-            };
-            let whole: Vec<usize> = (0..rows).filter(is_whole).collect();
-            if whole.len() < 6 || roles.joints.len() != arm.joints() {
-                return Err(NoMeasurements::Rows(whole.len(), rows));
-            }
-            let all: Vec<usize> = whole.iter().copied().step_by(whole.len().div_ceil(200)).collect();
-            let joints: Vec<Vec<f64>> =
-                all.iter().map(|&r| roles.joints.iter().map(|&c| number(c, r)).collect()).collect();
-            let raw: Vec<Vec<f64>> = all
-                .iter()
-                .map(|&r| roles.rotation.iter().map(|&c| recording.columns[c].values[r]).collect())
-                .collect();
+            let whole = of.whole(&[&roles.joints[..], &roles.position, &roles.rotation].concat())?;
+            let some: Vec<usize> = whole.iter().copied().step_by(whole.len().div_ceil(OF_FORMAT)).collect();
             let problem = Problem::new(arm, Measurement::Pose, Vector::zero(), false, vec![]);
-            Recipe { format: format_of(&problem, &joints, &raw, known)?.0, ..plain }
+            Recipe { format: of.format(&problem, &some)?.0, ..plain }
         }
         (None, false) => {
             let found = hold(arm, recording, roles, &HoldOptions::default()).map_err(NoMeasurements::Hold)?;
             if !found.is_understood
-                || !slips(&found, what.gains).is_empty()
+                || !slips(&found, what).is_empty()
                 || !found.recipe.joints.iter().all(|j| j.turn.is_none())
             {
                 return Err(NoMeasurements::Slips(Box::new(found)));
@@ -226,16 +264,16 @@ fn poses(arm: &Arm, recording: &Recording, roles: &Roles, what: &What) -> Result
     let format = Some(recipe.format);
     let bare = Recipe { base: Transform::identity(), tool: Transform::identity(), ..recipe };
     let (columns, left) = fixed(recording, roles, &bare, arm);
-    let all = recording.columns.first().map_or(0, |c| c.values.len());
     let kept: Vec<usize> = (0..all).filter(|r| left.binary_search(r).is_err()).collect();
-    if kept.len() < 6 {
+    if kept.len() < LEAST {
         return Err(NoMeasurements::Rows(kept.len(), all));
     }
     let first = usize::from(roles.time.is_some()) + usize::from(roles.episode.is_some());
     let n = arm.joints();
     let at = |c: &Column, k: usize| c.values[k];
     let quaternion = Format { form: Form::QuaternionXyzw, degrees: false };
-    let picked: Vec<usize> = (0..kept.len()).step_by(kept.len().div_ceil(MOST).max(1)).collect();
+    let every = kept.len().div_ceil(MOST);
+    let picked: Vec<usize> = (0..kept.len()).step_by(every).collect();
     let mut measured = Measured::default();
     for &k in &picked {
         let columns = &columns.columns[first..];
@@ -244,16 +282,12 @@ fn poses(arm: &Arm, recording: &Recording, roles: &Roles, what: &What) -> Result
         let turn: Vec<f64> = columns[n + 3..n + 7].iter().map(|c| at(c, k)).collect();
         let turn = quaternion.read(&turn).ok_or(NoMeasurements::NoOrientation)?;
         measured.readings.push(Reading { turn, at: Vector(x), distance: 0.0, group: 0 });
-        measured.episodes.push(episode(recording, roles, kept[k]));
+        measured.episodes.push(of.episode(kept[k]));
     }
     let mut problem = Problem::new(arm, Measurement::Pose, Vector::zero(), what.gains, vec![]);
     place(&mut problem, &base, &tool);
     let rows = picked.iter().map(|&k| kept[k]).collect();
-    Ok(Prepared { problem, measured, rows, left: left.len(), base, tool, format, held })
-}
-
-fn episode(recording: &Recording, roles: &Roles, r: usize) -> usize {
-    roles.episode.map_or(0, |c| recording.columns[c].values[r].max(0.0) as usize)
+    Ok(Prepared { problem, measured, rows, left: left.len(), every, base, tool, format, held })
 }
 
 /// Puts frames before the first constant and behind the last.

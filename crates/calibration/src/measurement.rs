@@ -49,6 +49,16 @@ impl Measurement {
         if matches!(self, Measurement::Pose | Measurement::Orientation) { 3 } else { 0 }
     }
 
+    /// Whether any of them is a turn.
+    pub fn has_turns(self) -> bool {
+        self.turns() > 0
+    }
+
+    /// Whether any of them is a shift or a distance.
+    pub fn has_shifts(self) -> bool {
+        self.width() > self.turns()
+    }
+
     /// Whether a point of the tool is measured, and not how it is turned.
     pub fn is_of_point(self) -> bool {
         matches!(self, Measurement::Position | Measurement::Distance(_) | Measurement::Plane)

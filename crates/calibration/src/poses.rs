@@ -4,7 +4,7 @@
 //! of a further configuration is log det(1 + J C Jᵀ).
 
 use crate::estimate::prior;
-use crate::fit::{deviation_of_hand, rows_of};
+use crate::fit::{rows_of, spread_of_hand};
 use crate::linear::{dot, symmetric};
 use crate::model::Problem;
 use crate::visible::Visible;
@@ -20,10 +20,11 @@ const SETS: usize = 30;
 pub struct Chosen {
     /// Their numbers among the candidates.
     pub chosen: Vec<usize>,
-    /// One deviation of the hand over the workspace with them: the mean and the most, metres.
-    pub deviation: [f64; 2],
+    /// One deviation of the hand with them in configurations at random: the mean and the most, metres; none where what is
+    /// measured says nothing of it.
+    pub deviation: Option<[f64; 2]>,
     /// The same with as many at random: medians.
-    pub random: [f64; 2],
+    pub random: Option<[f64; 2]>,
     /// How many combinations remain that they do not show.
     pub unseen: usize,
 }
@@ -72,24 +73,25 @@ pub fn choose_poses(
             .enumerate()
             .map(|(i, line)| line.iter().enumerate().map(|(j, c)| c * priors[i] * priors[j]).collect())
             .collect();
-        deviation_of_hand(problem, visible, &problem.nominal(), &scaled)
+        spread_of_hand(problem, visible, &problem.nominal(), &scaled)
     };
-    let mut random = Random(seed ^ 0x5eed);
-    let sets: Vec<[f64; 2]> = (0..SETS)
+    let mut dice = Random(seed ^ 0x5eed);
+    let sets: Option<Vec<[f64; 2]>> = (0..SETS)
         .map(|_| {
             let mut all: Vec<usize> = (0..candidates.len()).collect();
             for k in 0..count {
-                let other = k + ((random.unit() * (all.len() - k) as f64) as usize).min(all.len() - k - 1);
+                let other = k + ((dice.unit() * (all.len() - k) as f64) as usize).min(all.len() - k - 1);
                 all.swap(k, other);
             }
             deviation(&all[..count])
         })
         .collect();
-    let middle = |k: usize| {
+    let middle = |sets: &[[f64; 2]], k: usize| {
         let mut all: Vec<f64> = sets.iter().map(|s| s[k]).collect();
         all.sort_by(f64::total_cmp);
-        all.get(all.len() / 2).copied().unwrap_or(0.0)
+        all[all.len() / 2]
     };
+    let random = sets.map(|sets| [middle(&sets, 0), middle(&sets, 1)]);
     let mut information = vec![vec![0.0; n]; n];
     for row in chosen.iter().flat_map(|&c| &rows[c]) {
         for (line, x) in information.iter_mut().zip(row) {
@@ -97,7 +99,7 @@ pub fn choose_poses(
         }
     }
     let unseen = symmetric(information).0.into_iter().filter(|x| *x < 1.0).count();
-    Chosen { deviation: deviation(&chosen), random: [middle(0), middle(1)], chosen, unseen }
+    Chosen { deviation: deviation(&chosen), random, chosen, unseen }
 }
 
 fn unit(n: usize) -> Vec<Vec<f64>> {

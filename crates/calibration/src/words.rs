@@ -2,6 +2,7 @@
 
 use crate::cells::{Place, TableSeen, Tied};
 use crate::estimate::{Calibrated, Off};
+use crate::fit::LOOKED_AT;
 use crate::measurement::{Bar, Measurement};
 use crate::model::{Parameter, Problem};
 use crate::poses::Chosen;
@@ -235,14 +236,13 @@ pub fn tied(tied: &Tied, description: &Description) -> String {
 }
 
 /// What was found, but for the table.
-pub fn found_lines(problem: &Problem, visible: &Visible, found: &Calibrated, hand: [f64; 2]) -> Vec<String> {
-    let turns = problem.measurement.turns() > 0;
-    let shifts = problem.measurement.width() > problem.measurement.turns();
-    let of = |o: &Off| match (turns, shifts) {
-        (true, true) => format!("{} and {}", degrees(o.turn), millimetres(o.shift)),
-        (true, false) => degrees(o.turn),
-        _ => millimetres(o.shift),
-    };
+pub fn found_lines(
+    problem: &Problem,
+    visible: &Visible,
+    found: &Calibrated,
+    hand: Option<[f64; 2]>,
+) -> Vec<String> {
+    let of = |o: &Off| off(problem.measurement, o);
     let noise = Off { turn: found.noise[0], shift: found.noise[1] };
     let mut lines = vec![
         format!(
@@ -290,12 +290,11 @@ pub fn found_lines(problem: &Problem, visible: &Visible, found: &Calibrated, han
             with.len()
         ));
     }
-    let is_of_size = hand[0].is_finite() && problem.measurement != Measurement::Orientation;
-    if is_of_size && found.unseen.is_empty() && problem.fixtures.is_empty() {
+    if let Some([mean, most]) = hand {
         lines.push(format!(
-            "  the hand is known to {} over the workspace, {} at most (one deviation)",
-            millimetres(hand[0]),
-            millimetres(hand[1])
+            "  the hand is known to {} (one deviation; the mean of {LOOKED_AT} configurations at random, {} at most in them)",
+            millimetres(mean),
+            millimetres(most)
         ));
     }
     for fixture in &found.state.fixtures {
@@ -372,21 +371,36 @@ pub fn table_lines(rows: &Rows, table: &Table, convention: Convention) -> Vec<St
     lines
 }
 
+/// How far off what is measured is: of what it has.
+pub fn off(measurement: Measurement, o: &Off) -> String {
+    match (measurement.has_turns(), measurement.has_shifts()) {
+        (true, true) => format!("{} and {}", degrees(o.turn), millimetres(o.shift)),
+        (true, false) => degrees(o.turn),
+        _ => millimetres(o.shift),
+    }
+}
+
 /// The poses to measure at.
-pub fn chosen_lines(chosen: &Chosen, candidates: usize, noise: [f64; 2]) -> Vec<String> {
+pub fn chosen_lines(
+    measurement: Measurement,
+    chosen: &Chosen,
+    candidates: usize,
+    noise: [f64; 2],
+) -> Vec<String> {
     let mut lines = vec![format!(
-        "{} configurations chosen out of {candidates}, for a noise of {} and {}",
+        "{} configurations chosen out of {candidates}, for a noise of {}",
         chosen.chosen.len(),
-        degrees(noise[0]),
-        millimetres(noise[1])
+        off(measurement, &Off { turn: noise[0], shift: noise[1] })
     )];
-    lines.push(format!(
-        "  the hand will be known to {} over the workspace, {} at most (one deviation); with as many at random to {}, {} at most",
-        millimetres(chosen.deviation[0]),
-        millimetres(chosen.deviation[1]),
-        millimetres(chosen.random[0]),
-        millimetres(chosen.random[1])
-    ));
+    if let (Some([mean, most]), Some([other, other_most])) = (chosen.deviation, chosen.random) {
+        lines.push(format!(
+            "  the hand will be known to {} (one deviation; the mean of {LOOKED_AT} configurations at random, {} at most in them); measured at as many at random to {}, {} at most",
+            millimetres(mean),
+            millimetres(most),
+            millimetres(other),
+            millimetres(other_most)
+        ));
+    }
     if chosen.unseen > 0 {
         lines.push(format!("  too few to show everything: {} combinations will not be seen", chosen.unseen));
     }

@@ -376,7 +376,7 @@ impl<'a> Work<'a> {
         start: &[[f64; 6]],
     ) -> Option<[Off; 2]> {
         let count = self.measured.joints.len();
-        if folds < 2 || count < 2 * folds {
+        if folds < 2 || count / 2 < folds {
             return None;
         }
         let mut known: Vec<usize> = episodes.to_vec();

@@ -1,7 +1,10 @@
 //! Which columns of a recording are joints, rates, torques, and in which units: by their names, or as it is told.
 
 use crate::motion::Columns;
-use denavit_recording::{RolesError, columns_of_joints, columns_told};
+use denavit_recording::{
+    RolesError, column_of_episodes, column_of_time, columns_of_joints, columns_told, seconds_by_step,
+    seconds_said,
+};
 
 /// A column of a file.
 #[derive(Clone, PartialEq, Debug)]
@@ -29,7 +32,7 @@ pub struct Told {
     pub torques: Option<String>,
     /// What columns of torques are multiplied with, joint by joint.
     pub gains: Option<Vec<f64>>,
-    /// Rows a second, where there is no time.
+    /// Rows a second; no column is the time then, unless it is told.
     pub rate: Option<f64>,
     /// Joints without unit are degrees.
     pub degrees: bool,
@@ -64,10 +67,8 @@ pub struct Roles {
 /// Why columns are not known.
 #[derive(Clone, PartialEq, Debug)]
 pub enum NoColumns {
-    /// A column that is told is not there.
-    Told(RolesError),
-    /// No columns are known to be these: `joints`, `torques` or `time`; the names that there are.
-    Unknown(&'static str, Vec<String>),
+    /// A column that is told is not there, or nothing says which columns are meant.
+    Roles(RolesError),
     /// So many columns are these, and so many joints there are.
     Count(&'static str, usize, usize),
     /// A column is in a unit that is none of its quantity.
@@ -86,20 +87,7 @@ pub enum NoColumns {
 impl std::fmt::Display for NoColumns {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            NoColumns::Told(why) => why.fmt(f),
-            NoColumns::Unknown(what, names) => {
-                let more = if names.len() > 24 { ", …" } else { "" };
-                let list = names.iter().take(24).cloned().collect::<Vec<_>>().join(", ");
-                let hint = match *what {
-                    "time" => "--time t, or --rate 500 for rows a second",
-                    "joints" => "--joints q1..q6",
-                    _ => "--torques tau1..tau6",
-                };
-                write!(
-                    f,
-                    "which columns are the {what} is not known by their names: {list}{more}\n  = hint: say it with {hint}"
-                )
-            }
+            NoColumns::Roles(why) => why.fmt(f),
             NoColumns::Count(what, found, needed) => {
                 write!(f, "the robot has {needed} joints, and {found} columns are taken for their {what}")
             }
@@ -116,9 +104,6 @@ impl std::fmt::Display for NoColumns {
 
 impl std::error::Error for NoColumns {}
 
-/// Names of the time.
-const TIMES: &[&str] =
-    &["t", "time", "timestamp", "timestamps", "stamp", "seconds", "timesec", "elapsed", "headerstamp"];
 /// Names of joint variables.
 const POSITIONS: &[&str] = &[
     "q",
@@ -237,18 +222,18 @@ impl Roles {
         let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
         let n = joints.turns.len();
         let by = |text: &Option<String>| -> Result<Option<Vec<usize>>, NoColumns> {
-            text.as_deref().map(|t| columns_told(&names, t).map_err(NoColumns::Told)).transpose()
+            text.as_deref().map(|t| columns_told(&names, t).map_err(NoColumns::Roles)).transpose()
         };
         let search = |known: &[&str]| columns_of_joints(&names, &joints.names, known);
-        let one = |known: &[&str]| {
-            let plain =
-                |name: &str| name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect::<String>();
-            names.iter().position(|name| known.contains(&plain(name).as_str()))
+        let unknown = |what| {
+            let names = names.iter().map(|n| (*n).to_string()).collect();
+            NoColumns::Roles(RolesError::Unknown(what, names))
         };
-        let unknown = |what| NoColumns::Unknown(what, names.iter().map(|n| (*n).to_string()).collect());
         let time = match by(&told.time)? {
             Some(columns) => columns.first().copied(),
-            None => one(TIMES),
+            // What is told of the rate is so whatever a column says.
+            None if told.rate.is_some() => None,
+            None => column_of_time(&names, |_| false),
         };
         if time.is_none() && told.rate.is_none() {
             return Err(unknown("time"));
@@ -270,8 +255,14 @@ impl Roles {
                 return Err(NoColumns::Count(what, found.len(), n));
             }
         }
-        let episode = one(&["episodeindex", "episode"]);
-        Ok(Roles { time, episode, joints: positions, velocities, accelerations, torques })
+        Ok(Roles {
+            time,
+            episode: column_of_episodes(&names),
+            joints: positions,
+            velocities,
+            accelerations,
+            torques,
+        })
     }
 
     /// The columns in SI.
@@ -328,7 +319,10 @@ impl Roles {
             if columns.is_empty() { Ok(None) } else { kinematic(columns, per).map(Some) }
         };
         let time = match self.time {
-            Some(c) => scaled(c, self.unit_of_time(all, c)),
+            Some(c) => {
+                let unit = unit_of_time(&all[c]).ok_or_else(|| wrong(c, "time"))?;
+                scaled(c, unit)
+            }
             None => (0..rows).map(|r| r as f64 / told.rate.unwrap_or(1.0)).collect(),
         };
         let starts = self.episode.map_or(vec![], |c| {
@@ -350,27 +344,15 @@ impl Roles {
         let mut turning = self.joints.iter().zip(&joints.turns).filter(|t| *t.1);
         !told.degrees && turning.all(|(&c, _)| all[c].unit.is_none())
     }
+}
 
-    /// Seconds by what the time is in: as it says, or by the step of recordings, which have 1 to 10,000 rows a second.
-    pub fn unit_of_time(&self, all: &[Column], c: usize) -> f64 {
-        if let Some(unit) = &all[c].unit {
-            return match plain_unit(unit).as_str() {
-                "ms" => 1e-3,
-                "us" | "µs" | "μs" => 1e-6,
-                "ns" => 1e-9,
-                "min" => 60.0,
-                _ => 1.0,
-            };
-        }
-        let values = &all[c].values;
-        let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 0.0).collect();
-        match crate::signal::median(steps) {
-            d if d >= 5e4 => 1e-9,
-            d if d >= 50.0 && values.iter().any(|t| t.abs() > 1e9) => 1e-6,
-            d if d >= 1.5 => 1e-3,
-            _ => 1.0,
-        }
+/// Seconds in what the time is in: as it says, or by its step; none if it says no unit of time.
+fn unit_of_time(column: &Column) -> Option<f64> {
+    if let Some(unit) = &column.unit {
+        return seconds_said(&plain_unit(unit));
     }
+    let steps = column.values.windows(2).map(|w| w[1] - w[0]).filter(|d| *d > 0.0);
+    Some(seconds_by_step(crate::signal::median(steps.collect()), &column.values))
 }
 
 /// Small letters without blanks and dots.

@@ -25,9 +25,10 @@ pub struct Consistent {
     pub values: Vec<f64>,
     /// By how much the weighted sum of squares is larger than that of the estimate.
     pub excess: f64,
-    /// The parameter that is farthest off, in its standard deviations, of those that are seen.
+    /// The parameter that is farthest off of those that are seen, in the deviations with which masses are sought: noise counts as
+    /// no less than 1e-4 of the torques in them.
     pub farthest: Option<(usize, f64)>,
-    /// Whether Newton's method came to its end.
+    /// Whether Newton's method came to its end at the last weight.
     pub is_settled: bool,
 }
 
@@ -129,7 +130,7 @@ pub fn consistent(model: &Model, estimate: &Estimate, prior: &Prior) -> Consiste
     let values: Vec<f64> = problem.g.iter().map(|row| dot(row, &x)).collect();
     let off: Vec<f64> = values.iter().zip(&estimate.values).map(|(a, b)| a - b).collect();
     let seen = (0..off.len()).filter(|&k| matches!(estimate.known[k], crate::estimate::Known::Value(..)));
-    let by = |k: usize| off[k].abs() / estimate.covariance.at(k, k).sqrt().max(f64::MIN_POSITIVE);
+    let by = |k: usize| off[k].abs() / estimate.worth.at(k, k).sqrt().max(f64::MIN_POSITIVE);
     let farthest = seen.map(|k| (k, by(k))).max_by(|a, b| a.1.total_cmp(&b.1));
     let body = |k: usize| Body::of(std::array::from_fn(|p| x[10 * k + p]));
     let mut drives = vec![Drive::nothing(); model.joints()];

@@ -57,6 +57,8 @@ pub struct Estimate {
     pub covariance: Square,
     /// The weighted WᵀW over what is seen: what the values are worth. Noise counts as no less than 1e-4 of the torques in it.
     pub information: Square,
+    /// The covariance that belongs to it.
+    pub worth: Square,
     /// The condition number of the weighted regressor, its columns of one size; what is left out aside.
     pub condition: f64,
     /// Joint by joint.
@@ -283,6 +285,7 @@ fn weighted(all: &Observations, sizes: &[f64], active: &[usize], robust: bool) -
         values: found.values,
         covariance: last.covariance,
         information: worth.information,
+        worth: worth.covariance,
         condition: last.condition,
         joints,
         unseen: last.unseen,

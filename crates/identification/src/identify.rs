@@ -9,13 +9,13 @@ use crate::suspects::{Suspect, gravity, suspects};
 
 /// How to identify.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Asked {
+pub struct Asked<'a> {
     /// The filter.
     pub cutoff: Cutoff,
     /// The estimate.
     pub options: Options,
-    /// Whether angles without unit may be degrees.
-    pub may_be_degrees: bool,
+    /// The columns with angles without unit taken for degrees, where there are any.
+    pub in_degrees: Option<&'a Columns>,
 }
 
 /// What was found.
@@ -50,10 +50,8 @@ pub fn identify(model: &Model, columns: &Columns, asked: &Asked) -> Result<Ident
     let largest =
         |j: usize| columns.q[j].iter().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
     let is_wide = (0..columns.q.len()).any(|j| model.turns[j] && largest(j) > MANY_TURNS);
-    if !(asked.may_be_degrees && is_wide) {
-        return once(model, columns, asked);
-    }
-    let degrees = once(model, &in_degrees(columns, &model.turns), asked);
+    let Some(in_degrees) = asked.in_degrees.filter(|_| is_wide) else { return once(model, columns, asked) };
+    let degrees = once(model, in_degrees, asked);
     let radians = once(model, columns, asked);
     let left = |i: &Identified| {
         let parts = i.estimate.joints.iter().filter(|j| j.rows > 0);
@@ -61,24 +59,16 @@ pub fn identify(model: &Model, columns: &Columns, asked: &Asked) -> Result<Ident
     };
     match (degrees, radians) {
         (Ok(mut d), Ok(r)) if left(&d) < BETTER * left(&r) => {
-            d.remarks.push(Remark::Degrees(left(&r) / left(&d).max(1e-12)));
+            d.remarks.push(Remark::Degrees(Some(left(&r) / left(&d).max(1e-12))));
             Ok(d)
         }
         (_, Ok(r)) => Ok(r),
-        (Ok(d), Err(_)) => Ok(d),
+        (Ok(mut d), Err(_)) => {
+            d.remarks.push(Remark::Degrees(None));
+            Ok(d)
+        }
         (Err(_), Err(why)) => Err(why),
     }
-}
-
-fn in_degrees(columns: &Columns, turns: &[bool]) -> Columns {
-    let scaled = |all: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        let one = |(c, turns): (&Vec<f64>, &bool)| {
-            c.iter().map(|x| if *turns { x.to_radians() } else { *x }).collect()
-        };
-        all.iter().zip(turns).map(one).collect()
-    };
-    let more = |all: &Option<Vec<Vec<f64>>>| all.as_ref().map(|a| scaled(a));
-    Columns { q: scaled(&columns.q), qd: more(&columns.qd), qdd: more(&columns.qdd), ..columns.clone() }
 }
 
 fn once(model: &Model, columns: &Columns, asked: &Asked) -> Result<Identified, NoMotion> {

@@ -83,8 +83,9 @@ pub enum Remark {
     Turns(usize),
     /// Stretches too short for the filter.
     Short(usize),
-    /// The columns of the joints hold degrees; so many times larger is what is left over where they are taken for radians.
-    Degrees(f64),
+    /// Columns of the joints without unit hold degrees; so many times larger is what is left over where they are taken for
+    /// radians, or they are no motion then.
+    Degrees(Option<f64>),
 }
 
 /// Why columns are no motion.
@@ -165,7 +166,7 @@ impl Motion {
             pass.as_ref().map_or(0, |p| 3 * p.settles / 2) + if columns.qdd.is_some() { 0 } else { EDGE };
         // The ends that the second filter spoils, and two rows between them.
         let second = parallel.map_or(0, |(f, _)| ((2.0 + 2.0 / ROWS) * rate / f) as usize);
-        let needed = (2 * edge + second + 8).max(LEAST);
+        let needed = (2 * edge + 8).max(LEAST).saturating_add(second);
         let longest = pieces.iter().map(|p| p.q[0].len()).max().unwrap_or(0);
         if longest < needed {
             return Err(NoMotion::Short { longest, needed });

@@ -96,8 +96,11 @@ pub fn remark(names: &[String], r: &Remark) -> String {
         Remark::Turns(j) => format!("jumps by whole turns are undone in {}", names[*j]),
         Remark::Short(n) => format!("{n} stretches are too short for the filter"),
         Remark::Degrees(by) => format!(
-            "the columns of the joints are taken for degrees: taken for radians, {} times as much of the torques is left over",
-            short(*by)
+            "columns of the joints that do not say their unit are taken for degrees: taken for radians, {}",
+            match by {
+                Some(by) => format!("{} times as much of the torques is left over", short(*by)),
+                None => "they are no motion".into(),
+            }
         ),
     }
 }

@@ -3,6 +3,7 @@
 //! Nothing is corrected but whole turns; rows that are suspect are left out of the search, and judged once it is done.
 
 use crate::recording::{HoldError, LEAST, Recording, Roles, Said};
+use crate::times::seconds_by_step;
 use denavit::geometry::Vector;
 use std::f64::consts::TAU;
 
@@ -172,16 +173,7 @@ fn times(recording: &Recording, roles: &Roles, mask: &[bool]) -> Times {
     if usual <= 0.0 {
         return (None, follows, vec![], vec![]);
     }
-    // Recordings have 1 to 10,000 rows a second.
-    let unit = time.said.map_or(
-        match usual {
-            d if d >= 5e4 => 1e-9,
-            d if d >= 50.0 && time.values.iter().any(|t| t.abs() > 1e9) => 1e-6,
-            d if d >= 1.5 => 1e-3,
-            _ => 1.0,
-        },
-        Said::si,
-    );
+    let unit = time.said.map_or_else(|| seconds_by_step(usual, &time.values), Said::si);
     let (mut back, mut gaps) = (vec![], vec![]);
     for (r, is_next) in follows.iter_mut().enumerate().filter(|f| *f.1) {
         let d = difference(r);

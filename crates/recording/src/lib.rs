@@ -23,6 +23,7 @@ mod recipe_text;
 mod recording;
 mod roles;
 mod search;
+mod times;
 pub mod turns;
 pub mod words;
 
@@ -37,3 +38,4 @@ pub use recipe::{ColumnUnit, JointColumn, Recipe, Rows, table_of};
 pub use recipe_text::RecipeError;
 pub use recording::{Column, HoldError, Recording, Roles, Said};
 pub use roles::{RolesError, Told, columns_told};
+pub use times::{column_of_episodes, column_of_time, seconds_by_step, seconds_said};

@@ -36,6 +36,11 @@ impl Said {
         }
     }
 
+    /// Whether it is a unit of time.
+    pub fn is_time(self) -> bool {
+        matches!(self, Said::Seconds | Said::Milliseconds | Said::Microseconds | Said::Nanoseconds)
+    }
+
     /// By the text between the brackets of a header.
     pub fn named(text: &str) -> Option<Self> {
         Some(match text.trim().to_lowercase().as_str() {

@@ -1,7 +1,8 @@
 //! Which columns are the time, the joints and the pose, by their names; by their places where names say nothing.
 
 use crate::arm::Arm;
-use crate::recording::{Recording, Roles};
+use crate::recording::{Recording, Roles, Said};
+use crate::times::{column_of_episodes, column_of_time};
 
 /// What columns are told by hand, as on a command line: names, or `first..last`, with commas.
 #[derive(Clone, Default, Debug)]
@@ -21,7 +22,7 @@ pub struct Told {
 pub enum RolesError {
     /// There is no column of this name; these are like it.
     NoColumn(String, Vec<String>),
-    /// No columns are known to be these: `joints`, `position` or `rotation`; the names that there are.
+    /// No columns are known to be these: `time`, `joints`, `position`, `rotation` or `torques`; the names that there are.
     Unknown(&'static str, Vec<String>),
 }
 
@@ -38,6 +39,8 @@ impl std::fmt::Display for RolesError {
             }
             RolesError::Unknown(what, names) => {
                 let example = match *what {
+                    "time" => "--time t, or --rate 500 for rows a second",
+                    "torques" => "--torques tau1..tau6",
                     "joints" => "--joints q1,q2,q3 or --joints q1..q6",
                     "position" => "--position x,y,z",
                     _ => "--rotation rx,ry,rz",
@@ -89,9 +92,6 @@ const JOINTS: &[&str] = &[
     "qmeas",
     "msrjointpos",
 ];
-/// Names of the time, its unit left aside.
-const TIMES: &[&str] =
-    &["t", "time", "timestamp", "stamp", "seconds", "timesec", "elapsed", "headerstamp", "timestamps"];
 /// Names of a whole pose before its numbers.
 const POSES: &[&str] = &[
     "pose",
@@ -184,10 +184,13 @@ impl Roles {
         let (time, joints, position, rotation) =
             (by(&by_hand.time)?, by(&by_hand.joints)?, by(&by_hand.position)?, by(&by_hand.rotation)?);
         let search = Names::of(recording);
-        let mut roles = Roles { episode: search.one(&["episodeindex", "episode"]), ..Roles::default() };
+        let mut roles = Roles { episode: column_of_episodes(&all), ..Roles::default() };
         roles.time = match time {
             Some(columns) => columns.first().copied(),
-            None => search.time(recording),
+            None => {
+                let is_said = |k: usize| recording.columns[k].said.is_some_and(Said::is_time);
+                column_of_time(&all, is_said)
+            }
         };
         let mut taken: Vec<usize> = roles.time.into_iter().chain(roles.episode).collect();
         roles.joints = match joints {
@@ -262,21 +265,6 @@ impl Names {
             plain: recording.columns.iter().map(|c| plain(&c.name)).collect(),
             groups: groups.into_iter().map(sorted).collect(),
         }
-    }
-
-    fn one(&self, names: &[&str]) -> Option<usize> {
-        names.iter().find_map(|n| self.plain.iter().position(|p| p == n))
-    }
-
-    fn time(&self, recording: &Recording) -> Option<usize> {
-        let is_time = |k: &usize| {
-            let said = recording.columns[*k].said.is_some_and(|s| {
-                use crate::recording::Said::{Microseconds, Milliseconds, Nanoseconds, Seconds};
-                matches!(s, Seconds | Milliseconds | Microseconds | Nanoseconds)
-            });
-            TIMES.contains(&self.plain[*k].as_str()) || said
-        };
-        (0..self.plain.len()).find(is_time).or_else(|| self.one(&["secs", "sec", "ros_time", "frametime"]))
     }
 
     /// The joints: by the arm's own names, or numbered.

@@ -64,10 +64,13 @@ pub struct Found {
     pub before: Off,
     /// Whether what was measured was computed from these joints.
     pub computed: bool,
-    /// One deviation of the hand over the workspace: the mean and the most, metres; null where something is not seen.
+    /// One deviation of the hand in 100 configurations at random: the mean and the most, metres; null where something is not
+    /// seen, for orientations, and with things beside the arm.
     pub deviation_of_hand: Option<[f64; 2]>,
     /// The errors.
     pub errors: Vec<Error>,
+    /// Of the rows that are whole each so many-th was used.
+    pub every: usize,
     /// The robot file.
     pub file: String,
     /// The same on rows that were held out, before and behind.
@@ -90,13 +93,13 @@ pub struct Found {
     pub unseen: Vec<Vec<Member>>,
 }
 
-/// A turn and a shift, root mean squares or deviations.
+/// A turn and a shift, root mean squares or deviations; null where what is measured has none.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Off {
     /// Radians.
-    pub angle: f64,
+    pub angle: Option<f64>,
     /// Metres.
-    pub distance: f64,
+    pub distance: Option<f64>,
 }
 
 /// An error of the arm.
@@ -115,10 +118,10 @@ pub struct Error {
 pub struct Poses {
     /// The joint variables, radians and metres.
     pub configurations: Vec<Vec<f64>>,
-    /// One deviation of the hand with them: the mean and the most over the workspace, metres.
-    pub deviation_of_hand: [f64; 2],
-    /// The same with as many at random.
-    pub deviation_with_random: [f64; 2],
+    /// One deviation of the hand with them: the mean and the most in 100 configurations at random, metres; null for orientations.
+    pub deviation_of_hand: Option<[f64; 2]>,
+    /// The same measured at as many at random.
+    pub deviation_with_random: Option<[f64; 2]>,
     /// What is measured.
     pub measure: &'static str,
     /// The noise of a turn and of a shift that is counted with.
@@ -146,8 +149,16 @@ pub fn measure(measurement: Measurement) -> &'static str {
 }
 
 impl Off {
-    fn of(off: &calibration::Off) -> Self {
-        Off { angle: off.turn, distance: off.shift }
+    fn of(measurement: Measurement, off: &calibration::Off) -> Self {
+        Off {
+            angle: measurement.has_turns().then_some(off.turn),
+            distance: measurement.has_shifts().then_some(off.shift),
+        }
+    }
+
+    /// Of the noise of a turn and of a shift.
+    fn noise(measurement: Measurement, [turn, shift]: [f64; 2]) -> Self {
+        Off::of(measurement, &calibration::Off { turn, shift })
     }
 }
 
@@ -204,16 +215,17 @@ fn letter(cell: Cell) -> &'static str {
 }
 
 impl Found {
-    /// Of an estimate; `rows` are the numbers of the rows in the recording.
+    /// Of an estimate; `rows` are the numbers of the rows in the recording, of which each so many-th was used.
     pub fn of(
         [recording, robot, file]: [&str; 3],
         problem: &Problem,
         visible: &Visible,
         found: &Calibrated,
-        rows: &[usize],
-        hand: [f64; 2],
+        (rows, every): (&[usize], usize),
+        hand: Option<[f64; 2]>,
     ) -> Self {
         let last = problem.last();
+        let off = |o: &calibration::Off| Off::of(problem.measurement, o);
         let member = |m: &(Parameter, f64)| Member { factor: m.1, name: words::parameter(m.0, last) };
         let error = |e: &calibration::Estimate| Error {
             deviation: e.value.map(|v| v[1]),
@@ -221,16 +233,17 @@ impl Found {
             value: e.value.map(|v| v[0]),
         };
         Found {
-            after: Off::of(&found.after),
+            after: off(&found.after),
             aside: found.aside.iter().map(|&r| rows[r]).collect(),
-            before: Off::of(&found.before),
+            before: off(&found.before),
             computed: found.is_computed,
-            deviation_of_hand: (found.unseen.is_empty() && problem.fixtures.is_empty()).then_some(hand),
+            deviation_of_hand: hand,
             errors: found.estimates.iter().map(error).collect(),
+            every,
             file: file.into(),
-            held_out: found.held_out.as_ref().map(|[a, b]| [Off::of(a), Off::of(b)]),
+            held_out: found.held_out.as_ref().map(|[a, b]| [off(a), off(b)]),
             measure: measure(problem.measurement),
-            noise: Off { angle: found.noise[0], distance: found.noise[1] },
+            noise: Off::noise(problem.measurement, found.noise),
             recording: recording.into(),
             robot: robot.into(),
             rows: rows.len(),
@@ -255,7 +268,7 @@ impl Poses {
             deviation_of_hand: chosen.deviation,
             deviation_with_random: chosen.random,
             measure: measure(measurement),
-            noise: Off { angle: noise[0], distance: noise[1] },
+            noise: Off::noise(measurement, noise),
             robot: robot.into(),
             schema: Schema,
             unseen: chosen.unseen,

@@ -123,7 +123,7 @@ pub struct Consistent {
     pub offsets: Vec<f64>,
     /// What they are near to: `given` or `neutral`.
     pub prior: &'static str,
-    /// Whether they are the nearest that there are.
+    /// Whether Newton's method came to its end at the last weight of what they are near to.
     pub settled: bool,
 }
 

@@ -6,7 +6,7 @@ use denavit_calibration::measured::{NoMeasurements, What, prepare};
 use denavit_calibration::visible::supposed;
 use denavit_calibration::{Bar, CalibrateOptions, Measurement, Problem, calibrate, visible};
 use denavit_recording::turns::exp;
-use denavit_recording::{Arm, Column, Form, Format, Recording, Roles};
+use denavit_recording::{Arm, Column, Form, Format, HoldError, Recording, Roles};
 
 /// The arm with errors of 0.1° and 0.5 mm at the end of every link.
 fn real(arm: &Arm, dice: &mut Dice) -> Vec<Transform<f64>> {
@@ -27,6 +27,7 @@ fn what(measurement: Measurement) -> What {
         length: None,
         recipe: None,
         is_unchecked: false,
+        is_robust: false,
     }
 }
 
@@ -130,6 +131,12 @@ fn orientations() {
             calibrate(&prepared.problem, &visible, &prepared.measured, &options).expect("an estimate");
         assert_eq!(found.unseen.len(), 0);
         assert!((found.noise[0] / 1e-4 - 1.0).abs() < 0.3, "{:?}", found.noise);
+        assert!(found.held_out.is_some());
+        // More parts than rows are none.
+        let options = CalibrateOptions { folds: usize::MAX, ..options };
+        let found =
+            calibrate(&prepared.problem, &visible, &prepared.measured, &options).expect("an estimate");
+        assert_eq!(found.held_out, None);
     }
 }
 
@@ -153,6 +160,45 @@ fn units_are_not_guessed() {
             assert!(hint.contains("degrees") && hint.contains("millimetres"), "{hint}");
         }
         other => panic!("{other:?}"),
+    }
+}
+
+/// Joints that are not told, more rows than are used, and rows without a number.
+#[test]
+fn columns_and_rows_are_counted() {
+    let mut dice = Dice::new(24);
+    let arm = arm("ur5");
+    let problem = Problem::new(&arm, Measurement::Position, POINT, false, vec![]);
+    let mut rows: Vec<Vec<f64>> = (0..6004)
+        .map(|_| {
+            let q: Vec<f64> = arm.limits.iter().map(|[l, h]| l + (h - l) * dice.unit()).collect();
+            let x = arm.pose_with(&problem.constants, &q);
+            [
+                q,
+                x.translation.0.to_vec(),
+                Format { form: Form::RotationVector, degrees: false }.write(&x.rotation, None),
+            ]
+            .concat()
+        })
+        .collect();
+    (0..3).for_each(|r| rows[r][7] = f64::NAN);
+    let names = ["q1", "q2", "q3", "q4", "q5", "q6", "x", "y", "z", "rx", "ry", "rz"];
+    let recording = columns(&rows, &names);
+    let roles = Roles {
+        joints: (0..6).collect(),
+        position: (6..9).collect(),
+        rotation: (9..12).collect(),
+        ..Roles::default()
+    };
+    for measurement in [Measurement::Position, Measurement::Pose] {
+        let asked = What { is_unchecked: true, ..what(measurement) };
+        let prepared = prepare(&arm, &recording, &roles, &asked).expect("measurements");
+        assert_eq!((prepared.left, prepared.every, prepared.rows.len()), (3, 3, 2001), "{measurement:?}");
+        let fewer = Roles { joints: (0..5).collect(), ..roles.clone() };
+        match prepare(&arm, &recording, &fewer, &asked) {
+            Err(NoMeasurements::Hold(HoldError::Joints { found: 5, needed: 6 })) => {}
+            other => panic!("{measurement:?}: {other:?}"),
+        }
     }
 }
 

@@ -9,7 +9,8 @@ use std::path::PathBuf;
 /// With measurements: estimates the errors of the geometry with their deviations, says what these rows do not show, and writes
 /// the arm with `-o`. With --choose: the poses to measure at. With neither: what the measurement can show of this arm at all.
 /// A recording that has a slip (a sign, an order, degrees for radians) is refused: `denavit check` finds it, and --fix or
-/// --recipe undoes it. Exit codes: 0 done, 1 rows do not show all that such measurements can, 3 it cannot be read or has a slip.
+/// --recipe undoes it; so is one in which the hand is far off in some rows, without --robust. What is found and does not matter
+/// is said: frames, zeros and lengths that are off, jumps of the pose, times that stand still, gains with --gains. Exit codes: 0 done, 1 rows do not show all that such measurements can, 3 it cannot be read or has a slip.
 #[derive(Args)]
 pub struct CalibrateArguments {
     /// The robot as it is written down
@@ -28,14 +29,14 @@ pub struct CalibrateArguments {
     #[arg(long)]
     pub gains: bool,
     /// Deviations of the measurement that are known, of an angle, a length or both, as in `--noise "0.1mm, 0.02deg"`; found in the
-    /// residuals otherwise
+    /// residuals otherwise, and with --choose those of a good tracker
     #[arg(long, value_name = "NOISE")]
     pub noise: Option<String>,
     /// Some rows may be grossly wrong: Tukey's biweight
-    #[arg(long)]
+    #[arg(long, requires = "file")]
     pub robust: bool,
     /// In how many parts rows are held out to judge by; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    #[arg(long, value_name = "N", default_value_t = 5, requires = "file")]
     pub folds: usize,
     /// Choose so many configurations to measure at, within the joints' limits
     #[arg(long, value_name = "N", conflicts_with = "file")]
@@ -62,13 +63,13 @@ pub struct CalibrateArguments {
     #[arg(long, requires = "distance")]
     pub offset: bool,
     /// The column that tells several planes or centres apart
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", requires = "file")]
     pub group: Option<String>,
     /// A recipe of `check --recipe` that makes the columns the robot's
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "file")]
     pub recipe: Option<PathBuf>,
     /// Take the columns as they are said, without looking for slips
-    #[arg(long, conflicts_with = "recipe")]
+    #[arg(long, conflicts_with = "recipe", requires = "file")]
     pub unchecked: bool,
     /// Print JSON
     #[arg(long)]

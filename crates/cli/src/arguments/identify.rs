@@ -15,35 +15,35 @@ pub struct IdentifyArguments {
     /// The robot.
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The recordings (.csv, .tsv, .jsonl, .npy, .npz, .parquet); several are taken together
+    /// The recordings (.csv, .tsv, .jsonl, .npy, .npz, .parquet, the folder of a data set of LeRobot); several are taken together
     #[arg(value_name = "DATA", required_unless_present = "excite", conflicts_with = "excite")]
     pub data: Vec<PathBuf>,
     /// The column of the time
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "excite")]
     pub time: Option<String>,
-    /// Rows a second, where there is no time
-    #[arg(long, value_name = "HZ", value_parser = positive, conflicts_with = "time")]
+    /// Rows a second: no column is taken for the time
+    #[arg(long, value_name = "HZ", value_parser = positive, conflicts_with_all = ["time", "excite"])]
     pub rate: Option<f64>,
     /// The columns of the joints: names with commas, or `first..last`
-    #[arg(long, value_name = "COLUMNS")]
+    #[arg(long, value_name = "COLUMNS", conflicts_with = "excite")]
     pub joints: Option<String>,
     /// The columns of the velocities; `none`: from the positions
-    #[arg(long, value_name = "COLUMNS")]
+    #[arg(long, value_name = "COLUMNS", conflicts_with = "excite")]
     pub velocities: Option<String>,
     /// The columns of the accelerations; `none`: from the velocities or positions
-    #[arg(long, value_name = "COLUMNS")]
+    #[arg(long, value_name = "COLUMNS", conflicts_with = "excite")]
     pub accelerations: Option<String>,
     /// The columns of the torques, or of the currents with --gains
-    #[arg(long, value_name = "COLUMNS")]
+    #[arg(long, value_name = "COLUMNS", conflicts_with = "excite")]
     pub torques: Option<String>,
     /// What the columns of torques are multiplied with, as torque by current: one for all or one each
-    #[arg(long, value_name = "GAINS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "GAINS", allow_hyphen_values = true, conflicts_with = "excite")]
     pub gains: Option<String>,
     /// Joints whose columns do not say their unit are in degrees
-    #[arg(long)]
+    #[arg(long, conflicts_with = "excite")]
     pub degrees: bool,
     /// The frequency of the filter of the positions, Hz, or `none`; where motion and noise meet, twice that, otherwise
-    #[arg(long, value_name = "HZ|none")]
+    #[arg(long, value_name = "HZ|none", conflicts_with = "excite")]
     pub cutoff: Option<String>,
     /// The acceleration of gravity in the base, as in `dynamics`
     #[arg(long, value_name = "DIRECTION", allow_hyphen_values = true)]
@@ -58,13 +58,13 @@ pub struct IdentifyArguments {
     #[arg(long)]
     pub rotors: bool,
     /// Rows that are far off count less (Huber)
-    #[arg(long)]
+    #[arg(long, conflicts_with = "excite")]
     pub robust: bool,
     /// Leave out parameters that are not told from 0, by an F-test at 5 %
-    #[arg(long)]
+    #[arg(long, conflicts_with = "excite")]
     pub reduce: bool,
     /// What masses are to be near to where torques do not tell: those of the robot's file, or even links
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, conflicts_with = "excite")]
     pub prior: Option<PriorName>,
     /// Write the robot with masses that can be and have these torques (TOML); with --excite the motion (CSV)
     #[arg(short, long, value_name = "FILE")]

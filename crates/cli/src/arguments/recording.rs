@@ -26,6 +26,12 @@ impl PoseColumns {
         [&self.time, &self.joints, &self.position, &self.rotation]
     }
 
+    /// The first option that is given.
+    pub fn given(&self) -> Option<&'static str> {
+        let options = ["--time", "--joints", "--position", "--rotation"];
+        self.all().into_iter().zip(options).find_map(|(text, option)| text.as_ref().map(|_| option))
+    }
+
     /// What is told by hand.
     pub fn told(&self) -> Told {
         let [time, joints, position, rotation] = self.all().map(Clone::clone);

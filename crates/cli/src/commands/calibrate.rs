@@ -1,13 +1,13 @@
 //! `denavit calibrate`: the geometry of an arm out of measurements.
 
 use crate::arguments::{CalibrateArguments, MeasureName};
-use crate::commands::check::lerobot;
-use crate::commands::check::recording::{bytes_of, column, write_whole};
+use crate::commands::check::recording::{bytes_of, column, ends_in, say_remarks, whole_table, write_whole};
+use crate::commands::fk;
 use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::note;
 use denavit::Description;
-use denavit::description::{Decimals, Measure, Mechanism, read_urdf, read_value, write_urdf};
+use denavit::description::{Decimals, Measure, Mechanism, read_urdf, write_urdf};
 use denavit::geometry::{Transform, Vector};
 use denavit_calibration::measured::{NoMeasurements, Prepared, What, prepare, slips};
 use denavit_calibration::visible::supposed;
@@ -16,7 +16,7 @@ use denavit_calibration::{
     deviation_of_hand, table_seen, visible, words,
 };
 use denavit_recording::words::{Names, finding};
-use denavit_recording::{Arm, Recipe, Recording, Roles};
+use denavit_recording::{Arm, Recipe, Recording, Roles, Slip};
 use denavit_tables::Kind;
 use denavit_wire::calibration as wire;
 use std::io::Write;
@@ -38,6 +38,17 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
         return Err(Failure::Unsupported(format!("{robot} has no joints")));
     }
     let what = what(arguments)?;
+    let of_noise = arguments.noise.as_ref().filter(|_| arguments.choose.is_none()).map(|_| "--noise");
+    if let (None, Some(option)) = (&arguments.file, arguments.columns.given().or(of_noise)) {
+        return Err(Failure::Usage(format!("{option} is for measurements: say in which file they stand")));
+    }
+    if let Some(output) = &arguments.output {
+        match (&arguments.file, arguments.choose) {
+            (Some(_), _) => ends_in(output, &["toml", "urdf"], "the calibrated arm")?,
+            (None, Some(_)) => ends_in(output, &["csv"], "the list of configurations")?,
+            (None, None) => return Err(Failure::Usage("-o needs measurements, or --choose".into())),
+        }
+    }
     match (&arguments.file, arguments.choose) {
         (Some(file), _) => measured(arguments, &description, &arm, what, file),
         (None, Some(count)) => chosen(arguments, &description, &arm, &what, count),
@@ -95,19 +106,17 @@ fn what(arguments: &CalibrateArguments) -> Result<What, Failure> {
         length: arguments.bar.as_deref().map(length).transpose()?,
         recipe: None,
         is_unchecked: arguments.unchecked,
+        is_robust: arguments.robust,
     })
 }
 
 /// A number with its unit.
 fn value(text: &str, measure: Measure) -> Result<f64, Failure> {
-    let wrong = || {
-        Failure::Usage(format!(
-            "`{text}` is no {}",
-            if measure == Measure::Angle { "angle" } else { "length" }
-        ))
-    };
-    let read = read_value(text, measure).map_err(|_| wrong())?;
-    read.eval(|_| None).map_err(|_| wrong())
+    let found = load::value_of(text, measure).and_then(fk::value);
+    found.map_err(|why| {
+        let what = if measure == Measure::Angle { "angle" } else { "length" };
+        Failure::Usage(format!("`{text}` is no {what}: {why}"))
+    })
 }
 
 /// The deviations that are told: of an angle, and of a length.
@@ -139,9 +148,6 @@ fn seen(
     arm: &Arm,
     what: &What,
 ) -> Result<(), Failure> {
-    if arguments.output.is_some() {
-        return Err(Failure::Usage("-o needs measurements, or --choose".into()));
-    }
     let (problem, seen) = structure(arm, what)?;
     let table = table_seen(description, &problem, &seen).map_err(|e| no_table(&e))?;
     let mut out = anstream::stdout();
@@ -213,7 +219,7 @@ fn chosen(
         return Ok(());
     }
     write!(out, "{}: ", description.name)?;
-    for line in words::chosen_lines(&chosen, candidates.len(), noise) {
+    for line in words::chosen_lines(what.measurement, &chosen, candidates.len(), noise) {
         writeln!(out, "{line}")?;
     }
     if arguments.output.is_none() {
@@ -232,19 +238,8 @@ fn measured(
 ) -> Result<(), Failure> {
     let name = file.to_string_lossy().into_owned();
     let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
-    let table = if lerobot::is_one(file) {
-        lerobot::table(file)?
-    } else {
-        let Some(kind) = Kind::of(&name) else {
-            return Err(failed(
-                &"what is this?\n  = hint: measurements stand in .csv, .tsv, .jsonl, .npy, .npz or .parquet",
-            ));
-        };
-        denavit_tables::read(&bytes_of(&name)?, kind).map_err(|e| failed(&e))?
-    };
-    for remark in &table.remarks {
-        note(&format!("note: {name}: {remark}"));
-    }
+    let table = whole_table(file)?;
+    say_remarks(&name, &table);
     let is_text = matches!(Kind::of(&name), Some(Kind::Csv));
     let (first_row, row) = (table.first_row, if is_text { "line" } else { "row" });
     let recording = Recording { columns: table.columns.into_iter().map(column).collect() };
@@ -274,9 +269,12 @@ fn measured(
     }
     let of = |c: &usize| recording.columns[*c].name.as_str();
     let names = Names { arm, columns: roles.joints.iter().map(of).collect(), first_row, row };
-    let prepared =
-        prepare(arm, &recording, &roles, &what).map_err(|e| no_measurements(&e, arguments, &name, &names))?;
-    let Prepared { problem, measured, rows, left, base, tool, .. } = &prepared;
+    let prepared = prepare(arm, &recording, &roles, &what)
+        .map_err(|e| no_measurements(&e, &arguments.robot.robot, &what, &name, &names))?;
+    if let Some(held) = &prepared.held {
+        held.findings.iter().for_each(|f| note(&format!("note: {name}: {}", finding(f, held, &names))));
+    }
+    let Prepared { problem, measured, rows, left, every, base, tool, .. } = &prepared;
     let seen = visible(problem);
     let options = CalibrateOptions {
         noise: arguments.noise.as_deref().map(noise).transpose()?,
@@ -285,14 +283,14 @@ fn measured(
     };
     let found = calibrate(problem, &seen, measured, &options).map_err(|e| failed(&e))?;
     let written = Written::new(description, &what, &prepared, &found).map_err(|e| no_table(&e))?;
-    let hand = deviation_of_hand(problem, &seen, &found.state, &found.covariance);
+    let hand = deviation_of_hand(problem, &seen, &found);
     if let Some(output) = &arguments.output {
         write_whole(output, &written.in_format(output)?)?;
     }
     let mut out = anstream::stdout();
     if arguments.json {
         let texts = [name.as_str(), description.name.as_str(), written.text.as_str()];
-        let answer = wire::Found::of(texts, problem, &seen, &found, rows, hand);
+        let answer = wire::Found::of(texts, problem, &seen, &found, (rows, *every), hand);
         writeln!(out, "{}", denavit_wire::text(&answer))?;
     } else {
         writeln!(
@@ -304,6 +302,9 @@ fn measured(
         )?;
         if *left > 0 {
             writeln!(out, "  {left} rows are left out: a number is missing, or the pose jumps")?;
+        }
+        if *every > 1 {
+            writeln!(out, "  of the rows that are whole one in {every} is used, evenly spread")?;
         }
         let frames = [
             ("the base stands elsewhere in what is measured", base),
@@ -322,10 +323,9 @@ fn measured(
             let off = found.residuals[r];
             writeln!(
                 out,
-                "  {row} {}: left aside, {} and {} off",
+                "  {row} {}: left aside, {} off",
                 rows[r] + first_row,
-                words::degrees(off.turn),
-                words::millimetres(off.shift)
+                words::off(what.measurement, &off)
             )?;
         }
         for line in words::table_lines(&written.rows, &written.table, description.convention) {
@@ -375,7 +375,6 @@ impl<'a> Written<'a> {
     /// The text for a file of this ending.
     fn in_format(&self, output: &Path) -> Result<String, Failure> {
         match output.extension().and_then(|e| e.to_str()) {
-            Some("toml") => Ok(self.text.clone()),
             Some("urdf") => {
                 let bodies =
                     Mechanism::of(&self.back).map_err(|missing| no_table(&NoTable::Missing(missing)))?;
@@ -399,10 +398,7 @@ impl<'a> Written<'a> {
                     by => Err(no_table(&NoTable::NotBack(by.unwrap_or(f64::INFINITY)))),
                 }
             }
-            _ => Err(Failure::Usage(format!(
-                "-o {}: the calibrated arm is written as .toml or .urdf",
-                output.display()
-            ))),
+            _ => Ok(self.text.clone()),
         }
     }
 }
@@ -415,13 +411,12 @@ fn no_table(e: &NoTable) -> Failure {
 }
 
 /// Why columns are no measurements, with what to do.
-fn no_measurements(e: &NoMeasurements, arguments: &CalibrateArguments, name: &str, names: &Names) -> Failure {
-    let robot = &arguments.robot.robot;
+fn no_measurements(e: &NoMeasurements, robot: &str, what: &What, name: &str, names: &Names) -> Failure {
     let check = format!("denavit check {robot} {name}");
     match e {
         NoMeasurements::Slips(held) => {
             let mut text = String::new();
-            let all = slips(held, arguments.gains);
+            let all = slips(held, what);
             if !held.is_understood || all.is_empty() {
                 text += &format!("error: {name}: the recording is not understood against {robot}");
                 text += &format!(
@@ -431,9 +426,13 @@ fn no_measurements(e: &NoMeasurements, arguments: &CalibrateArguments, name: &st
                 for f in &all {
                     text += &format!("error: {name}: {}\n", finding(f, held, names));
                 }
-                text += &format!(
-                    "  = hint: a slip is no matter of calibration: run `{check} --fix clean.csv` first, and calibrate with clean.csv; --unchecked takes the columns as they are said"
-                );
+                text += &if all.iter().all(|f| matches!(f.slip, Slip::Apart(..))) {
+                    "  = hint: --robust lets such rows count for little; --unchecked takes all as they are said".into()
+                } else {
+                    format!(
+                        "  = hint: a slip is no matter of calibration: run `{check} --fix clean.csv` first, and calibrate with clean.csv; --unchecked takes the columns as they are said"
+                    )
+                };
             }
             Failure::Input(text)
         }

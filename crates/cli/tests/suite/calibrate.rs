@@ -160,6 +160,45 @@ fn a_slip_is_refused() {
     }
 }
 
+/// Rows that are far off are no matter of least squares: they are named, refused, and count for little where that is asked for.
+#[test]
+fn rows_that_are_far_off() {
+    let folder = folder("calibrate-apart");
+    let mut real = Real::new("ur5", 15);
+    let mut rows = real.rows(200, &Transform::identity());
+    rows.iter_mut().step_by(7).for_each(|r| r[8] += 0.1);
+    let file = write(&folder.join("apart.csv"), HEAD, &rows);
+    let (code, _, err) = run(&["calibrate", "ur5", &file]);
+    assert_eq!(code, 3, "{err}");
+    for part in ["error: ", "the hand is far off in 29 lines of 200", "hint: --robust"] {
+        assert!(err.contains(part), "{part}: {err}");
+    }
+    let (code, out, err) = run(&["calibrate", "ur5", &file, "--robust"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(err.contains("note: ") && err.contains("the hand is far off in 29 lines of 200"), "{err}");
+    assert_eq!(out.matches("left aside").count(), 29, "{out}");
+}
+
+/// An option that would change nothing is a mistake.
+#[test]
+fn options_without_what_they_are_for() {
+    let check = |arguments: &[&str], part: &str| {
+        let (code, _, err) = run(&[&["calibrate", "ur5"], arguments].concat());
+        assert_eq!((code, err.contains(part)), (2, true), "{arguments:?}: {err}");
+    };
+    for option in ["--robust", "--folds=3", "--recipe=r.toml", "--unchecked"] {
+        check(&[option], "<FILE>");
+        check(&[option, "--choose", "4"], "<FILE>");
+    }
+    check(&["--group=g", "--measure=plane"], "<FILE>");
+    check(&["--joints", "q1..q6"], "--joints is for measurements");
+    check(&["--choose", "4", "--time", "t"], "--time is for measurements");
+    check(&["--noise", "0.1mm"], "--noise is for measurements");
+    check(&["--choose", "4", "-o", "x.toml"], "the list of configurations is written as .csv");
+    // Before anything is read.
+    check(&["nowhere.csv", "-o", "x.json"], "the calibrated arm is written as .toml or .urdf");
+}
+
 #[test]
 fn poses_to_measure_at() {
     let run_with =
@@ -181,6 +220,37 @@ fn poses_to_measure_at() {
         .map(|l| l.split(',').map(|x| x.parse().expect("a number")).collect())
         .collect();
     assert_eq!((rows.len(), rows[0].len()), (8, 6));
+}
+
+/// Orientations say nothing of lengths: no number of them is given.
+#[test]
+fn orientations_have_no_lengths() {
+    let asked = ["calibrate", "ur5", "--measure", "orientation"];
+    let (code, out, err) = run(&[&asked[..], &["--choose", "6", "--candidates", "40"]].concat());
+    assert_eq!(code, 0, "{err}");
+    assert!(!out.contains(" mm") && out.contains("for a noise of 0.0200°\n"), "{out}");
+    let (_, out, _) = run(&[&asked[..], &["--choose", "6", "--candidates", "40", "--json"]].concat());
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    for path in ["/deviation_of_hand", "/deviation_with_random", "/noise/distance"] {
+        assert_eq!(answer.pointer(path), Some(&Value::Null), "{path}: {out}");
+    }
+    let folder = folder("calibrate-orientations");
+    let mut real = Real::new("ur5", 17);
+    let rows = real.rows(60, &Transform::identity());
+    let file = write(&folder.join("o.csv"), HEAD, &rows);
+    let (code, out, err) = run(&["calibrate", "ur5", &file, "--measure", "orientation", "--json"]);
+    assert_eq!(code, 0, "{err}");
+    let answer: Value = serde_json::from_str(&out).expect("JSON");
+    for path in [
+        "/deviation_of_hand",
+        "/noise/distance",
+        "/after/distance",
+        "/before/distance",
+        "/held_out/1/distance",
+    ] {
+        assert_eq!(answer.pointer(path), Some(&Value::Null), "{path}: {out}");
+    }
+    assert!(answer.pointer("/after/angle").is_some_and(Value::is_f64), "{out}");
 }
 
 #[test]

@@ -119,6 +119,14 @@ fn data_sets_of_both_versions() {
             "{err}"
         );
         assert_eq!(err.contains("are called a.pos, b.pos"), k < 2, "{err}");
+        // The other verbs that read recordings read it as well.
+        let name = at.to_string_lossy();
+        let (_, out, err) =
+            run(&["identify", "ur5", &name, "--torques", "pose[0]..pose[5]", "--cutoff", "none"]);
+        assert!(out.contains("joints observation.state[0] … observation.state[5]"), "{out}{err}");
+        assert!(err.contains(version), "{err}");
+        let (_, out, err) = run(&["calibrate", "ur5", &name]);
+        assert!(err.contains(version) && err.contains("the sign is reversed"), "{out}{err}");
         std::fs::remove_dir_all(at.join("data")).expect("a folder");
         assert_eq!(run(&["check", "ur5", &at.to_string_lossy()]).0, 3);
     }

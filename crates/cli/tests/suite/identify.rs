@@ -171,6 +171,11 @@ fn units_of_columns_count() {
     let (_, robot, file) = files("units", &data);
     let (code, out, err) = run(&["identify", &robot, &file]);
     assert_eq!(code, 0, "{out}{err}");
+    // A second file that does not say degrees, behind one that does.
+    let (_, _, other) = files("other", &data.replace(" [deg]", ""));
+    let (code, out, err) = run(&["identify", &robot, &file, &other]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("taken for degrees"), "{out}");
     // Not said, degrees are found.
     let bare = data.replace(" [deg]", "").replace(" [N mm]", "").replace(" [ms]", "");
     let (_, robot, file) = files("bare", &bare);
@@ -202,6 +207,20 @@ fn bad_input_is_told_with_its_place() {
     std::fs::write(&empty, "t,q1,q2,q3,tau1,tau2,tau3\n0,0,0,0,0,0,0\n").expect("a file");
     check(&[&robot, &empty.to_string_lossy()], 3, "1 of 1 rows");
     check(&[&robot, "--excite"], 2, "--velocity");
+    for option in [
+        "--gains=2",
+        "--cutoff=3",
+        "--time=t",
+        "--rate=9",
+        "--joints=a..c",
+        "--robust",
+        "--prior=file",
+        "--degrees",
+    ] {
+        check(&[&robot, "--excite", option], 2, "cannot be used with");
+    }
+    check(&[&robot, "--excite", "-o", "x.toml"], 2, "the motion is written as .csv");
+    check(&[&robot, &file, "-o", "x.csv"], 2, "the robot is written as .toml");
     check(&[&robot, "--excite", "--velocity", "1", "--acceleration", "3", "--range", "1..-1"], 2, "is empty");
 }
 
@@ -219,12 +238,7 @@ fn a_motion_within_limits() {
     }
     let first = std::fs::read_to_string(&written).expect("a file");
     let mut lines = first.lines();
-    assert_eq!(
-        lines.next(),
-        Some(
-            "t,q1,q2,q3,q1_velocity,q2_velocity,q3_velocity,q1_acceleration,q2_acceleration,q3_acceleration"
-        )
-    );
+    assert_eq!(lines.next(), Some("t,q1,q2,q3,qd1,qd2,qd3,qdd1,qdd2,qdd3"));
     let rows: Vec<Vec<f64>> =
         lines.map(|l| l.split(',').map(|x| x.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), 801);
@@ -237,6 +251,10 @@ fn a_motion_within_limits() {
     for row in [&rows[0], &rows[800]] {
         assert!(row[4..].iter().all(|x| x.abs() < 1e-9), "{row:?}");
     }
+    // The names are those that other verbs read.
+    let torques = folder.join("torques.csv");
+    let (code, out, err) = run(&["map", &robot, &name, "--torque", "-o", &torques.to_string_lossy()]);
+    assert_eq!(code, 0, "{out}{err}");
     run(&arguments);
     assert_eq!(first, std::fs::read_to_string(&written).expect("a file"));
     // The verb's own motion, simulated, identifies the arm: the columns are known by their names.

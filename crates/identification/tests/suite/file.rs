@@ -6,6 +6,7 @@ use denavit::dynamics::{Dynamics, drive_torques};
 use denavit_identification::{
     Asked, Column, Joints, NoColumns, Prior, Roles, Sought, Told, consistent, described, identify,
 };
+use denavit_recording::RolesError;
 
 #[test]
 fn the_written_robot_has_the_recorded_torques() {
@@ -46,6 +47,18 @@ fn the_written_robot_has_the_recorded_torques() {
     }
 }
 
+/// A recording without noise, made from masses: the masses that are found have its parameters.
+#[test]
+fn masses_that_were_recorded_are_found_to_be() {
+    let exact = crate::made::Setting { positions: 0.0, torques: 0.0, ..USUAL };
+    for name in ["staubli-rx90", "ur5"] {
+        let truth = truth(name, 33, Sought::default());
+        let found = identify(&truth.model, &recording(&truth, &exact), &Asked::default()).expect("motion");
+        let set = consistent(&truth.model, &found.estimate, &Prior::Neutral);
+        assert!(matches!(set.farthest, Some((_, off)) if off < 3.0), "{name}: {:?}", set.farthest);
+    }
+}
+
 fn column(name: &str, unit: Option<&str>, values: &[f64]) -> Column {
     Column { name: name.into(), unit: unit.map(Into::into), values: values.to_vec() }
 }
@@ -73,6 +86,13 @@ fn columns_are_known_by_their_names_and_units() {
     assert!((si.q[0][0] - 1_f64.to_radians()).abs() < 1e-15 && (si.q[1][0] - 1e-3).abs() < 1e-15);
     assert!((si.qd.as_ref().expect("rates")[0][0] - 0.104_719_755).abs() < 1e-9);
     assert!((si.tau[0][0] - 1e-3).abs() < 1e-15 && (si.tau[1][0] - 1e3).abs() < 1e-12);
+    // Degrees where no unit is said, and there alone.
+    let mut bare = all.clone();
+    bare[1].unit = None;
+    let in_degrees = Told { degrees: true, ..Told::default() };
+    let si = roles.columns(&bare, &joints, &in_degrees).expect("units");
+    assert!((si.q[0][0] - 1_f64.to_radians()).abs() < 1e-15 && (si.q[1][0] - 1e-3).abs() < 1e-15);
+    assert!((si.qd.expect("rates")[0][0] - 0.104_719_755).abs() < 1e-9);
     let named = [
         column("t", None, &[0.0, 0.1, 0.2]),
         column("shoulder_pos", None, &x),
@@ -81,7 +101,20 @@ fn columns_are_known_by_their_names_and_units() {
         column("lift_effort", None, &x),
     ];
     let roles = Roles::find(&named, &joints, &told).expect("known");
-    assert_eq!((roles.joints, roles.torques), (vec![1, 2], vec![3, 4]));
+    assert_eq!((roles.time, roles.joints, roles.torques), (Some(0), vec![1, 2], vec![3, 4]));
+    // Hours are no step of a recording.
+    let mut hours = all.clone();
+    hours[0].unit = Some("h".into());
+    let why = Roles::find(&hours, &joints, &told)
+        .expect("known")
+        .columns(&hours, &joints, &told)
+        .expect_err("hours");
+    assert!(matches!(why, NoColumns::Unit { what: "time", .. }), "{why:?}");
+    // The rate that is told, not the time.
+    let told_rate = Told { rate: Some(500.0), ..Told::default() };
+    let roles = Roles::find(&named, &joints, &told_rate).expect("known");
+    assert_eq!(roles.time, None);
+    assert_eq!(roles.columns(&named, &joints, &told_rate).expect("units").time, [0.0, 0.002, 0.004]);
     // Currents without gains, units of something else, columns that are not there.
     let currents = [
         column("t", None, &x),
@@ -99,8 +132,14 @@ fn columns_are_known_by_their_names_and_units() {
     wrong[1].unit = Some("mm".into());
     let roles = Roles::find(&wrong, &joints, &told).expect("known");
     assert!(matches!(roles.columns(&wrong, &joints, &told), Err(NoColumns::Unit { .. })));
-    assert!(matches!(Roles::find(&all[..5], &joints, &told), Err(NoColumns::Unknown("torques", _))));
-    assert!(matches!(Roles::find(&all[1..], &joints, &told), Err(NoColumns::Unknown("time", _))));
+    assert!(matches!(
+        Roles::find(&all[..5], &joints, &told),
+        Err(NoColumns::Roles(RolesError::Unknown("torques", _)))
+    ));
+    assert!(matches!(
+        Roles::find(&all[1..], &joints, &told),
+        Err(NoColumns::Roles(RolesError::Unknown("time", _)))
+    ));
     let off = Told { torques: Some("nothing".into()), ..Told::default() };
-    assert!(matches!(Roles::find(&all, &joints, &off), Err(NoColumns::Told(_))));
+    assert!(matches!(Roles::find(&all, &joints, &off), Err(NoColumns::Roles(RolesError::NoColumn(..)))));
 }

@@ -2,10 +2,16 @@
 
 use crate::made::{Setting, Truth, USUAL, recording, truth};
 use denavit::geometry::Vector;
-use denavit_identification::{Asked, Columns, NoMotion, Remark, Sought, Suspect, identify};
+use denavit_identification::{Asked, Columns, Cutoff, NoMotion, Remark, Sought, Suspect, identify};
 
 fn found(truth: &Truth, columns: &Columns) -> Vec<Suspect> {
     identify(&truth.model, columns, &Asked::default()).expect("motion").suspects
+}
+
+/// Differences of positions at 200 rows a second.
+fn rates(x: &[f64]) -> Vec<f64> {
+    let n = x.len();
+    (0..n).map(|r| (x[(r + 1).min(n - 1)] - x[r.saturating_sub(1)]) * 100.0).collect()
 }
 
 #[test]
@@ -68,23 +74,30 @@ fn a_base_on_a_wall() {
 #[test]
 fn positions_in_degrees() {
     let truth = truth("staubli-rx90", 7, Sought::default());
-    let mut columns = recording(&truth, &USUAL);
+    let in_degrees = recording(&truth, &USUAL);
+    let mut columns = in_degrees.clone();
     columns.q.iter_mut().flatten().for_each(|x| *x = x.to_degrees());
-    let asked = Asked { may_be_degrees: true, ..Asked::default() };
+    let asked = Asked { in_degrees: Some(&in_degrees), ..Asked::default() };
     let of = identify(&truth.model, &columns, &asked).expect("motion");
-    assert!(of.remarks.iter().any(|r| matches!(r, Remark::Degrees(by) if *by > 3.0)), "{:?}", of.remarks);
+    assert!(
+        of.remarks.iter().any(|r| matches!(r, Remark::Degrees(Some(by)) if *by > 3.0)),
+        "{:?}",
+        of.remarks
+    );
     assert!(of.estimate.joints.iter().all(|j| j.left < 0.1 * j.torque));
+    // Where they are no motion in radians, it is said as well.
+    columns.qd = Some(in_degrees.q.iter().map(|q| rates(q)).collect());
+    let in_degrees = Columns { qd: columns.qd.clone(), ..in_degrees };
+    let asked = Asked { in_degrees: Some(&in_degrees), ..Asked::default() };
+    let of = identify(&truth.model, &columns, &asked).expect("motion");
+    assert!(of.remarks.contains(&Remark::Degrees(None)), "{:?}", of.remarks);
 }
 
 #[test]
 fn velocities_in_degrees() {
     let truth = truth("scara", 8, Sought::default());
     let mut columns = recording(&truth, &Setting { positions: 0.0, ..USUAL });
-    let rates = |x: &Vec<f64>| -> Vec<f64> {
-        let n = x.len();
-        (0..n).map(|r| (x[(r + 1).min(n - 1)] - x[r.saturating_sub(1)]) * 100.0).collect()
-    };
-    columns.qd = Some(columns.q.iter().map(rates).collect());
+    columns.qd = Some(columns.q.iter().map(|q| rates(q)).collect());
     if let Some(qd) = &mut columns.qd {
         qd[1].iter_mut().for_each(|x| *x = x.to_degrees());
     }
@@ -108,6 +121,10 @@ fn columns_that_are_no_motion() {
             ..Columns::default()
         }
     };
+    for slow in [1e-17, f64::MIN_POSITIVE] {
+        let asked = Asked { cutoff: Cutoff::At(slow), ..Asked::default() };
+        assert!(matches!(identify(&truth.model, &columns, &asked), Err(NoMotion::Short { .. })));
+    }
     assert!(matches!(ask(&short(0)), Err(NoMotion::Rows { .. })));
     assert!(matches!(ask(&short(20)), Err(NoMotion::Rows { .. })));
     let _ = ask(&short(60));

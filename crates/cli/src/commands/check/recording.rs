@@ -23,21 +23,64 @@ const LEAST_ROWS: usize = 8;
 /// # Errors
 /// If the file can be nothing but a recording, and cannot be read.
 pub fn table_of(file: &Path) -> Result<Option<Table>, Failure> {
-    if lerobot::is_one(file) {
-        return lerobot::table(file).map(Some);
-    }
     let name = file.to_string_lossy();
-    let Some(kind) = Kind::of(&name) else { return Ok(None) };
-    if !file.is_file() && name != "-" {
+    let kind = Kind::of(&name);
+    let may_be_one = kind.is_some() && (file.is_file() || name == "-");
+    if !may_be_one && !lerobot::is_one(file) {
         return Ok(None);
     }
-    let bytes = bytes_of(&name)?;
-    match denavit_tables::read(&bytes, kind) {
+    match whole_table(file) {
         // A table of a document may be written in CSV, too.
-        Ok(table) if kind == Kind::Csv && is_small(&table) => Ok(None),
-        Err(e) if kind == Kind::Csv && e.is_other => Ok(None),
+        Ok(table) if kind == Some(Kind::Csv) && is_small(&table) => Ok(None),
+        Err(NoTable { is_other: true, .. }) => Ok(None),
         Ok(table) => Ok(Some(table)),
-        Err(e) => Err(Failure::Input(format!("error: {name}: {e}"))),
+        Err(e) => Err(e.into()),
+    }
+}
+
+/// Why a file is no table.
+pub struct NoTable {
+    why: Failure,
+    /// Whether it may be another kind of text.
+    is_other: bool,
+}
+
+impl From<NoTable> for Failure {
+    fn from(e: NoTable) -> Self {
+        e.why
+    }
+}
+
+impl From<Failure> for NoTable {
+    fn from(why: Failure) -> Self {
+        NoTable { why, is_other: false }
+    }
+}
+
+/// The table of a file that is taken for a recording, or of the folder of a data set.
+///
+/// # Errors
+/// If it is none, or cannot be read.
+pub fn whole_table(file: &Path) -> Result<Table, NoTable> {
+    if lerobot::is_one(file) {
+        return Ok(lerobot::table(file)?);
+    }
+    let name = file.to_string_lossy();
+    let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
+    let Some(kind) = Kind::of(&name) else {
+        return Err(failed(
+            &"what is this?\n  = hint: a recording is .csv, .tsv, .jsonl, .npy, .npz, .parquet or the folder of a data set of LeRobot",
+        )
+        .into());
+    };
+    denavit_tables::read(&bytes_of(&name)?, kind)
+        .map_err(|e| NoTable { why: failed(&e), is_other: e.is_other })
+}
+
+/// Says what is worth saying of a table.
+pub fn say_remarks(name: &str, table: &Table) {
+    for remark in &table.remarks {
+        note(&format!("note: {name}: {remark}"));
     }
 }
 
@@ -71,9 +114,7 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
     let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
     let is_text = matches!(Kind::of(name), Some(Kind::Csv));
     let (first_row, row) = (table.first_row, if is_text { "line" } else { "row" });
-    for remark in &table.remarks {
-        note(&format!("note: {name}: {remark}"));
-    }
+    say_remarks(name, &table);
     let recording = Recording { columns: table.columns.into_iter().map(column).collect() };
     let roles = Roles::find(&recording, &arm, &arguments.recording.columns.told()).map_err(|e| failed(&e))?;
     let held = hold(&arm, &recording, &roles, &HoldOptions::default()).map_err(|e| failed(&e))?;
@@ -141,6 +182,20 @@ fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm
         note(&format!("note: {}: the arm itself is another one, which columns cannot undo", file.display()));
     }
     Ok(())
+}
+
+/// Whether a file has one of these endings.
+///
+/// # Errors
+/// If it has another one; `what` is what would be written.
+pub fn ends_in(file: &Path, endings: &[&str], what: &str) -> Result<(), Failure> {
+    match file.extension().and_then(|e| e.to_str()) {
+        Some(own) if endings.contains(&own) => Ok(()),
+        _ => {
+            let list = endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" or ");
+            Err(Failure::Usage(format!("-o {}: {what} is written as {list}", file.display())))
+        }
+    }
 }
 
 /// Writes a file whole or not at all.

@@ -136,10 +136,12 @@ fn write(file: &Path, motion: &Excitation, names: &[String], dt: f64) -> Result<
     let times: Vec<f64> = (0..rows).map(|r| (r as f64 * dt).min(motion.duration)).collect();
     let states: Vec<[Vec<f64>; 3]> = times.iter().map(|t| motion.at(*t)).collect();
     let mut columns = vec![Column { name: "t".into(), unit: None, values: times }];
-    for (k, suffix) in ["", "_velocity", "_acceleration"].into_iter().enumerate() {
+    // The names that `identify` and `map` know.
+    for (k, front) in ["", "qd", "qdd"].into_iter().enumerate() {
         for (j, name) in names.iter().enumerate() {
+            let name = if k == 0 { name.clone() } else { format!("{front}{}", j + 1) };
             let values = states.iter().map(|s| s[k][j]).collect();
-            columns.push(Column { name: format!("{name}{suffix}"), unit: None, values });
+            columns.push(Column { name, unit: None, values });
         }
     }
     write_whole(file, &written(&columns))

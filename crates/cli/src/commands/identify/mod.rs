@@ -4,7 +4,7 @@ mod excite;
 mod report;
 
 use crate::arguments::{IdentifyArguments, PriorName};
-use crate::commands::check::recording::{bytes_of, write_whole};
+use crate::commands::check::recording::{ends_in, say_remarks, whole_table, write_whole};
 use crate::commands::dynamics::gravity;
 use crate::commands::dynamics::tree::unknown;
 use crate::commands::fk::tree::{bodies, kind};
@@ -19,7 +19,6 @@ use denavit_identification::{
     Asked, Column, Columns, Cutoff, Joints, Known, Model, NoModel, NoPlace, Options, Prior, Roles, Sought,
     Told, consistent, described, identify, words,
 };
-use denavit_tables::{Kind, Table};
 use denavit_wire::identification as wire;
 use std::io::Write;
 
@@ -45,20 +44,27 @@ pub struct Subject {
 /// 1 if a recording is suspect, 3 if something cannot be read, 4 for closed loops.
 pub fn run(arguments: &IdentifyArguments) -> Result<(), Failure> {
     let subject = if arguments.whole { tree(arguments)? } else { arm(arguments)? };
+    if let Some(output) = &arguments.output {
+        match arguments.excite {
+            true => ends_in(output, &["csv"], "the motion")?,
+            false => ends_in(output, &["toml"], "the robot")?,
+        }
+    }
     if arguments.excite {
         return excite::run(&subject, arguments);
     }
     let joints = &subject.joints;
     let told = told(arguments, subject.names.len())?;
-    let mut whole: Option<(Columns, Roles, wire::Roles, bool)> = None;
+    let in_degrees = Told { degrees: true, ..told.clone() };
+    let mut shown: Option<(Roles, wire::Roles)> = None;
+    // As they are said, and with angles without unit in degrees where these may be.
+    let mut parts: Vec<(Columns, Option<Columns>)> = vec![];
     let mut recordings = vec![];
     for file in &arguments.data {
         let name = file.to_string_lossy().into_owned();
         let failed = |e: &dyn std::fmt::Display| Failure::Input(format!("error: {name}: {e}"));
-        let table = table_of(&name)?;
-        for remark in &table.remarks {
-            note(&format!("note: {name}: {remark}"));
-        }
+        let table = whole_table(file)?;
+        say_remarks(&name, &table);
         let all: Vec<Column> = table
             .columns
             .into_iter()
@@ -75,19 +81,27 @@ pub fn run(arguments: &IdentifyArguments) -> Result<(), Failure> {
         }
         let columns = roles.columns(&all, joints, &told).map_err(|e| failed(&e))?;
         let may_be_degrees = roles.may_be_degrees(&all, joints, &told);
-        recordings.push(name.clone());
-        match &mut whole {
-            None => whole = Some((columns, roles.clone(), named(&roles, &all), may_be_degrees)),
-            Some((before, ..)) => join(before, columns).map_err(|why| failed(&why))?,
+        let in_degrees = may_be_degrees.then(|| roles.columns(&all, joints, &in_degrees));
+        let in_degrees = in_degrees.transpose().map_err(|e| failed(&e))?;
+        if let Some((first, _)) = parts.first() {
+            are_alike(first, &columns).map_err(|why| failed(&why))?;
         }
+        parts.push((columns, in_degrees));
+        recordings.push(name);
+        shown.get_or_insert_with(|| (roles.clone(), named(&roles, &all)));
     }
-    let Some((columns, roles, names, may_be_degrees)) = whole else {
+    let Some((roles, names)) = shown else {
         return Err(Failure::Usage("say which recording: denavit identify ROBOT data.csv".into()));
     };
+    let in_degrees = parts.iter().any(|p| p.1.is_some()).then(|| {
+        let part = |(plain, degrees): &(Columns, Option<Columns>)| degrees.as_ref().unwrap_or(plain).clone();
+        joined(parts.iter().map(part))
+    });
+    let columns = joined(parts.into_iter().map(|p| p.0));
     let asked = Asked {
         cutoff: cutoff(arguments.cutoff.as_deref())?,
         options: Options { robust: arguments.robust, reduce: arguments.reduce },
-        may_be_degrees,
+        in_degrees: in_degrees.as_ref(),
     };
     let found = identify(&subject.model, &columns, &asked).map_err(|why| {
         Failure::Input(format!(
@@ -273,39 +287,34 @@ fn cutoff(text: Option<&str>) -> Result<Cutoff, Failure> {
     }
 }
 
-/// The table of a recording.
-fn table_of(name: &str) -> Result<Table, Failure> {
-    let Some(kind) = Kind::of(name) else {
-        return Err(Failure::Input(format!(
-            "error: {name}: what is this?\n  = hint: a recording is .csv, .tsv, .jsonl, .npy, .npz or .parquet"
-        )));
-    };
-    denavit_tables::read(&bytes_of(name)?, kind).map_err(|e| Failure::Input(format!("error: {name}: {e}")))
+/// Whether two recordings have the same columns.
+fn are_alike(first: &Columns, more: &Columns) -> Result<(), &'static str> {
+    match first.qd.is_some() == more.qd.is_some() && first.qdd.is_some() == more.qdd.is_some() {
+        true => Ok(()),
+        false => Err(
+            "it has velocities or accelerations, and the first has not, or the other way round\n  = hint: --velocities none --accelerations none",
+        ),
+    }
 }
 
-/// Puts another recording behind a first one.
-fn join(all: &mut Columns, more: Columns) -> Result<(), &'static str> {
-    let rows = all.time.len();
-    all.starts.push(rows);
-    all.starts.extend(more.starts.iter().map(|r| r + rows));
-    all.time.extend(more.time);
+/// Recordings that are alike, one behind the other.
+fn joined(mut parts: impl Iterator<Item = Columns>) -> Columns {
+    let mut all = parts.next().unwrap_or_default();
     let append = |all: &mut Vec<Vec<f64>>, more: Vec<Vec<f64>>| {
         all.iter_mut().zip(more).for_each(|(a, m)| a.extend(m));
     };
-    append(&mut all.q, more.q);
-    append(&mut all.tau, more.tau);
-    for (all, more) in [(&mut all.qd, more.qd), (&mut all.qdd, more.qdd)] {
-        match (all, more) {
-            (None, None) => {}
-            (Some(all), Some(more)) => append(all, more),
-            _ => {
-                return Err(
-                    "it has velocities or accelerations, and the first has not, or the other way round\n  = hint: --velocities none --accelerations none",
-                );
-            }
+    for more in parts {
+        let rows = all.time.len();
+        all.starts.push(rows);
+        all.starts.extend(more.starts.iter().map(|r| r + rows));
+        all.time.extend(more.time);
+        append(&mut all.q, more.q);
+        append(&mut all.tau, more.tau);
+        for (all, more) in [(&mut all.qd, more.qd), (&mut all.qdd, more.qdd)] {
+            all.as_mut().zip(more).into_iter().for_each(|(all, more)| append(all, more));
         }
     }
-    Ok(())
+    all
 }
 
 fn named(roles: &Roles, all: &[Column]) -> wire::Roles {

@@ -2,7 +2,7 @@
 
 use super::Subject;
 use crate::terminal::{Align, FAINT, HEADING, styled, table};
-use denavit_identification::{Consistent, Identified, Known, Prior, Roles, scale, words};
+use denavit_identification::{Consistent, Estimate, Identified, Known, Prior, Roles, scale, words};
 use denavit_wire::identification as wire;
 
 /// What is shown.
@@ -123,7 +123,7 @@ pub fn text(shown: &Shown, found: &Identified, set: Option<(&Consistent, &Prior)
             short(by)
         );
     }
-    text + &set.map_or(String::new(), |(set, prior)| masses(shown.subject, set, prior))
+    text + &set.map_or(String::new(), |(set, prior)| masses(shown.subject, estimate, set, prior))
 }
 
 /// The columns by their names.
@@ -148,7 +148,7 @@ fn columns(shown: &Shown) -> String {
 }
 
 /// Masses that can be.
-fn masses(subject: &Subject, set: &Consistent, prior: &Prior) -> String {
+fn masses(subject: &Subject, estimate: &Estimate, set: &Consistent, prior: &Prior) -> String {
     let short = words::short;
     let near = match prior {
         Prior::Given(_) => "nearest to those of the file where torques do not tell",
@@ -178,17 +178,24 @@ fn masses(subject: &Subject, set: &Consistent, prior: &Prior) -> String {
         &rows,
     );
     let size = subject.model.parameters.len();
+    // Where noise is less than what counts, deviations are other than those of the table.
+    let counted = |k: usize| match estimate.worth.at(k, k) > 1.02 * estimate.covariance.at(k, k) {
+        true => ", with noise of 0.01 % of the torques",
+        false => "",
+    };
     text += &match set.farthest {
         Some((k, off)) if off > 3.0 => format!(
-            "  no masses have just these parameters: {} is {} deviations off, the weighted squares grow by {} of {size} parameters\n",
+            "  the masses that were found do not have just these parameters: {} is {} deviations off{}, the weighted squares grow by {} of {size} parameters\n",
             subject.model.parameters[k].name,
             short(off),
+            counted(k),
             short(set.excess)
         ),
         Some((k, off)) => format!(
-            "  they have all parameters that are told within {} deviations ({})\n",
+            "  they have all parameters that are told within {} deviations ({}{})\n",
             short(off),
-            subject.model.parameters[k].name
+            subject.model.parameters[k].name,
+            counted(k)
         ),
         None => String::new(),
     };
