@@ -2,62 +2,70 @@
 
 use crate::arm::Arm;
 use crate::columns::cubic;
-use crate::recipe::Recipe;
+use crate::recipe::{JointColumn, Recipe};
 use crate::recording::{Column, Recording, Roles, Said};
 use denavit::geometry::Transform;
+
+/// A row with what a recipe says done to it.
+pub(crate) struct Row {
+    /// Its number, from 0.
+    pub row: usize,
+    /// The model's joints.
+    pub q: Vec<f64>,
+    /// The pose of the model's tool in its base.
+    pub pose: Transform<f64>,
+}
+
+/// The rows, and the numbers of those that are left out: those that the recipe leaves out, those in which a number is missing,
+/// and those at an end for which a delay leaves no joints. Nothing where a column of the recipe is not there.
+pub(crate) fn rows(recording: &Recording, roles: &Roles, recipe: &Recipe) -> Option<(Vec<Row>, Vec<usize>)> {
+    let find = |name: &String| recording.columns.iter().position(|c| c.name == *name);
+    let unwrapped_column = |j: &JointColumn| {
+        find(&j.column).map(|c| unwrapped(&recording.columns[c].values, unit_of(recording, c, j.turn)))
+    };
+    let columns: Vec<Vec<f64>> = recipe.joints.iter().map(unwrapped_column).collect::<Option<_>>()?;
+    let value = |c: usize, r: usize| recording.columns[c].values[r];
+    let (mut kept, mut left) = (vec![], vec![]);
+    for row in 0..recording.columns.first().map_or(0, |c| c.values.len()) {
+        let rotation: Vec<f64> = roles.rotation.iter().map(|&c| value(c, row)).collect();
+        let position = std::array::from_fn(|k| roles.position.get(k).map_or(f64::NAN, |&c| value(c, row)));
+        let at: Option<Vec<f64>> = columns.iter().map(|c| at(c, row as f64 - recipe.delay.0)).collect();
+        let is_whole = |x: &[f64]| x.iter().all(|x| x.is_finite());
+        match (at, recipe.pose_of(position, &rotation)) {
+            (Some(columns), Some(pose))
+                if !recipe.leaves_out(row) && is_whole(&columns) && is_whole(&pose.translation.0) =>
+            {
+                kept.push(Row { row, q: recipe.joints_of(&columns), pose });
+            }
+            _ => left.push(row),
+        }
+    }
+    Some((kept, left))
+}
 
 /// The recording, and the numbers of its rows that are left out: those that the recipe leaves out, those in which a number is
 /// missing, and those at an end for which a delay leaves no joints.
 pub fn fixed(recording: &Recording, roles: &Roles, recipe: &Recipe, arm: &Arm) -> (Recording, Vec<usize>) {
-    let find = |name: &String| recording.columns.iter().position(|c| c.name == *name);
-    let columns: Option<Vec<Vec<f64>>> = recipe
-        .joints
-        .iter()
-        .map(|j| {
-            find(&j.column).map(|c| unwrapped(&recording.columns[c].values, unit_of(recording, c, j.turn)))
-        })
-        .collect();
-    let (Some(columns), rows) = (columns, recording.columns.first().map_or(0, |c| c.values.len())) else {
-        return (Recording::default(), vec![]);
-    };
-    let value = |c: usize, r: usize| recording.columns[c].values[r];
-    let (mut kept, mut left) = (vec![], vec![]);
-    let (mut joints, mut poses): (Vec<Vec<f64>>, Vec<Transform<f64>>) = (vec![], vec![]);
-    for r in 0..rows {
-        let rotation: Vec<f64> = roles.rotation.iter().map(|&c| value(c, r)).collect();
-        let position = std::array::from_fn(|k| roles.position.get(k).map_or(f64::NAN, |&c| value(c, r)));
-        let at: Option<Vec<f64>> = columns.iter().map(|c| at(c, r as f64 - recipe.delay.0)).collect();
-        let is_whole = |x: &[f64]| x.iter().all(|x| x.is_finite());
-        match (at, recipe.pose_of(position, &rotation)) {
-            (Some(row), Some(pose))
-                if !recipe.leaves_out(r) && is_whole(&row) && is_whole(&pose.translation.0) =>
-            {
-                kept.push(r);
-                joints.push(recipe.joints_of(&row));
-                poses.push(pose);
-            }
-            _ => left.push(r),
-        }
-    }
+    let Some((rows, left)) = rows(recording, roles, recipe) else { return (Recording::default(), vec![]) };
     let column =
         |name: &str, said: Option<Said>, values: Vec<f64>| Column { name: name.into(), said, values };
     let as_it_stands = |c: usize| {
         let own = &recording.columns[c];
-        column(&own.name, own.said, kept.iter().map(|&r| own.values[r]).collect())
+        column(&own.name, own.said, rows.iter().map(|r| own.values[r.row]).collect())
     };
     let mut out: Vec<Column> = roles.time.into_iter().chain(roles.episode).map(as_it_stands).collect();
     for (i, name) in arm.names.iter().enumerate() {
         let said = if arm.turns[i] { Said::Radians } else { Said::Metres };
-        out.push(column(name, Some(said), joints.iter().map(|q| q[i]).collect()));
+        out.push(column(name, Some(said), rows.iter().map(|r| r.q[i]).collect()));
     }
     for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
-        out.push(column(name, Some(Said::Metres), poses.iter().map(|p| p.translation[k]).collect()));
+        out.push(column(name, Some(Said::Metres), rows.iter().map(|r| r.pose.translation[k]).collect()));
     }
     // Quaternions: one format that every reader knows.
     let format = crate::decode::Format { form: crate::decode::Form::QuaternionXyzw, degrees: false };
     let mut turns: Vec<Vec<f64>> = vec![];
-    for p in &poses {
-        turns.push(format.write(&p.rotation, turns.last().map(Vec::as_slice)));
+    for r in &rows {
+        turns.push(format.write(&r.pose.rotation, turns.last().map(Vec::as_slice)));
     }
     for (k, name) in ["qx", "qy", "qz", "qw"].into_iter().enumerate() {
         out.push(column(name, None, turns.iter().map(|t| t[k]).collect()));

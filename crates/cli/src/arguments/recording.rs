@@ -52,11 +52,15 @@ pub struct RecordingArguments {
     /// Write the recording with all of it undone (CSV): the model's joints in radians and metres, the pose of its tool
     #[arg(long, value_name = "FILE")]
     pub fix: Option<PathBuf>,
+    /// Write a plot of how far the hand is off, as the columns stand and with all of it undone
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
 }
 
 impl RecordingArguments {
     /// Whether one of them is given.
     pub fn is_any(&self) -> bool {
-        self.columns.all().iter().any(|t| t.is_some()) || self.recipe.is_some() || self.fix.is_some()
+        let written = [&self.recipe, &self.fix, &self.plot];
+        self.columns.given().is_some() || written.iter().any(|file| file.is_some())
     }
 }

@@ -68,14 +68,16 @@ fn clean_motion_has_nothing_to_remark() {
 #[test]
 fn a_slip_is_named_and_undone() {
     let at = folder("slip");
-    let [file, fixed, recipe] = ["slip.csv", "fixed.csv", "recipe.toml"].map(|n| at.join(n));
+    let [file, fixed, recipe, plot] = ["slip.csv", "fixed.csv", "recipe.toml", "off.svg"].map(|n| at.join(n));
     let slipped = rows(|r| {
         r[3] = -r[3];
         r[7..10].iter_mut().for_each(|x| *x *= 1e3);
     });
     std::fs::write(&file, csv(HEAD, &slipped)).expect("a file");
-    let [file, fixed_name, recipe_name] = [&file, &fixed, &recipe].map(|f| f.to_string_lossy().into_owned());
-    let (code, out, err) = run(&["check", "ur5", &file, "--fix", &fixed_name, "--recipe", &recipe_name]);
+    let [file, fixed_name, recipe_name, plot_name] =
+        [&file, &fixed, &recipe, &plot].map(|f| f.to_string_lossy().into_owned());
+    let (code, out, err) =
+        run(&["check", "ur5", &file, "--fix", &fixed_name, "--recipe", &recipe_name, "--plot", &plot_name]);
     assert_eq!(code, 1, "{out}{err}");
     assert!(
         out.contains("q3: the sign is reversed") && out.contains("the position is in millimetres"),
@@ -87,10 +89,15 @@ fn a_slip_is_named_and_undone() {
         written.contains("sign = [1, 1, -1, 1, 1, 1]") && written.contains("per_metre = 1000.0"),
         "{written}"
     );
-    let (code, out, err) = run(&["check", "ur5", &fixed_name]);
+    let drawn = std::fs::read_to_string(&plot).expect("a plot");
+    let panels = [", as the columns stand", ", with all of it undone"].map(|how| drawn.matches(how).count());
+    assert!(panels.iter().all(|n| *n >= 2), "{panels:?}");
+    let (code, out, err) = run(&["check", "ur5", &fixed_name, "--plot", &plot_name]);
     assert_eq!(code, 0, "{out}{err}");
+    let drawn = std::fs::read_to_string(&plot).expect("a plot");
+    assert!(drawn.contains("position off / mm") && !drawn.contains("as the columns stand"));
     // Nothing else is left in the folder.
-    assert_eq!(std::fs::read_dir(&at).expect("a folder").count(), 3);
+    assert_eq!(std::fs::read_dir(&at).expect("a folder").count(), 4);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Recipes: what they are applied to is what the model says, and they read back as they were written.
 
 use crate::made::{KINDS, NOMINAL, Noise, Setting, arm, make};
-use denavit_recording::{HoldOptions, Recipe, Roles, Told, fixed, hold};
+use denavit_recording::{HoldOptions, Recipe, Roles, Told, deviations, fixed, hold};
 
 const ARMS: [&str; 4] = ["ur5", "franka-panda", "scara", "staubli-rx90"];
 
@@ -21,6 +21,32 @@ fn what_is_fixed_is_clean() {
         let again = hold(&arm, &fixed, &roles, &HoldOptions::default()).expect("it can be held");
         assert_eq!(again.findings, [], "{name} {kind}: {:?}", held.findings);
         assert!(again.rho < 1.1, "{name} {kind}: {}", again.rho);
+    }
+}
+
+/// Row by row the hand is off by what is left over, whatever the slip, those of the arm itself too; as the columns stand it is farther off.
+#[test]
+fn deviations_are_what_is_left_over() {
+    for (k, kind) in KINDS.iter().enumerate() {
+        let name = ARMS[k % ARMS.len()];
+        let arm = arm(name);
+        let made = make(name, &[kind], 4000 + k as u64, &NOMINAL);
+        let held = hold(&arm, &made.recording, &made.roles, &HoldOptions::default()).expect("it can be held");
+        let middle = |recipe: &Recipe| {
+            let all = deviations(&made.recording, &made.roles, recipe, &arm);
+            assert_eq!(all.len(), held.rows[0]);
+            let mut shifts: Vec<f64> = all.iter().flatten().map(|o| o.shift).collect();
+            shifts.sort_by(f64::total_cmp);
+            shifts.get(shifts.len() / 2).copied()
+        };
+        let after = middle(&held.recipe).expect("rows");
+        assert!(
+            after < 2.0 * held.left_over.shift && after > 0.3 * held.left_over.shift,
+            "{name} {kind}: {after} and {}",
+            held.left_over.shift
+        );
+        let before = middle(&Recipe::plain(&made.recording, &made.roles, &arm));
+        assert!(before.is_none_or(|b| b > 0.9 * after), "{name} {kind}: {before:?}, {after}");
     }
 }
 

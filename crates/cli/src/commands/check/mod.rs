@@ -7,6 +7,7 @@ pub mod lerobot;
 mod markdown;
 mod marked;
 pub mod recording;
+mod recording_plot;
 pub mod rubric;
 mod sheet;
 mod terminal;

@@ -1,6 +1,6 @@
 //! `denavit check ROBOT data.csv`: recorded motion, held against the robot.
 
-use super::lerobot;
+use super::{lerobot, recording_plot};
 use crate::arguments::CheckArguments;
 use crate::failure::{Failure, without_values};
 use crate::load;
@@ -150,7 +150,12 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
     if let Some(file) = arguments.recording.fix.as_ref().filter(|_| is_told) {
         fix(file, &recording, &roles, &held, &arm)?;
     }
-    verdict(&held, arguments.recording.recipe.is_some() || arguments.recording.fix.is_some())
+    if let Some(file) = arguments.recording.plot.as_ref().filter(|_| is_told) {
+        let title = format!("{name} held against {}", description.name);
+        write_whole(file, &recording_plot::picture(&title, &recording, &roles, &held, &arm))?;
+    }
+    let written = [&arguments.recording.recipe, &arguments.recording.fix, &arguments.recording.plot];
+    verdict(&held, written.iter().any(|file| file.is_some()))
 }
 
 /// Writes the recording with all of it undone.
