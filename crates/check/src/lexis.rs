@@ -228,6 +228,12 @@ impl Lexis {
         }
     }
 
+    /// Forgets the transforms that the document defines.
+    pub fn forget_frames(&mut self) {
+        self.matrices.retain(|_, (_, about)| matches!(about, Some(Meaning::Jacobian(_) | Meaning::Torques)));
+        self.posed.clear();
+    }
+
     /// What a matrix of the document is in the entries of the pose, if that is known.
     pub fn posed_matrix(&self, name: &Name) -> Option<&Matrix> {
         self.posed.get(&name.key())

@@ -68,7 +68,8 @@ pub(super) fn before(text: &str, statements: &[Statement], at: usize, habits: &H
     }
 }
 
-/// The statements further down that define the matrices of this one, if these are the document's own.
+/// The statements further down that define the matrices of this one, if these are the document's own. What has a meaning already gets
+/// another one under the same heading only: a text that solves two problems may call the links of both by the same names.
 fn own_matrices(text: &str, statements: &[Statement], at: usize, habits: &Habits) -> Vec<usize> {
     let keys = |side: &Side| names(text, side).iter().map(Name::key).collect::<Vec<String>>();
     let used: Vec<String> = statements[at].sides.iter().flat_map(keys).collect();
@@ -76,11 +77,18 @@ fn own_matrices(text: &str, statements: &[Statement], at: usize, habits: &Habits
     if used.len() < 2 {
         return vec![];
     }
-    let defines = |s: &Statement| match &s.sides[..] {
-        [left, _, ..] => matches!(&keys(left)[..], [key] if used.contains(&key)),
-        _ => false,
+    let defined = |s: &Statement| match &s.sides[..] {
+        [left, _, ..] => match &keys(left)[..] {
+            [key] if used.contains(&key) => Some(key.clone()),
+            _ => None,
+        },
+        _ => None,
     };
-    (at + 1..statements.len().min(at + AHEAD)).filter(|&k| defines(&statements[k])).collect()
+    let known: BTreeSet<String> = statements[..at].iter().filter_map(defined).collect();
+    let is_meant = |s: &Statement| {
+        defined(s).is_some_and(|key| s.heading == statements[at].heading || !known.contains(&key))
+    };
+    (at + 1..statements.len().min(at + AHEAD)).filter(|&k| is_meant(&statements[k])).collect()
 }
 
 /// The statements further down that define the names in the cells of a printed matrix: `J = [j_11 …]`, `j_11 = …`.

@@ -6,6 +6,7 @@ use crate::jacobians::told_of_jacobian;
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
+use crate::order;
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit::forward::Reference as Frame;
 use denavit_reading::document::{Fence, Grid, Part, Place, Side, Statement, sides};
@@ -136,6 +137,7 @@ impl Walk<'_> {
     }
 
     pub(super) fn matrices(&mut self, statement: &Statement, claim: Option<&str>) {
+        self.begin_again(statement);
         let names = self.elementary(statement);
         let before = (!names.is_empty()).then(|| self.lexis.clone());
         names.iter().for_each(|name| self.lexis.declare_arguments(name));
@@ -157,6 +159,7 @@ impl Walk<'_> {
             match definition {
                 Definition::Matrix(name, matrix, about) => {
                     self.named.push((statement.span.clone(), name.key()));
+                    self.named_under.insert(name.key(), statement.heading.clone());
                     self.name_entries(&name, &matrix);
                     self.lexis.define_matrix(&name, matrix, about);
                 }
@@ -164,6 +167,23 @@ impl Walk<'_> {
                 Definition::Posed(name, matrix) => self.lexis.define_posed(&name, matrix),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
+        }
+    }
+
+    /// Where a matrix of the document's own is told again under another heading, by none of them, another problem begins: what
+    /// was made of the links before has no meaning any more. `U = T`, where `U = T Trans(x, -a_2)` before.
+    fn begin_again(&mut self, statement: &Statement) {
+        let [left, right] = &statement.sides[..] else { return };
+        let Some(name) = self.lone(left) else { return };
+        let is_own = |name: &Name| self.lexis.habits.products.contains(&name.key());
+        let is_elsewhere =
+            || self.named_under.get(&name.key()).is_some_and(|under| *under != statement.heading);
+        let is_told = matches!(right.parts[..], [Part::Text(_)])
+            && !order::names(self.text, right).iter().any(is_own)
+            && product(self.text, right, &self.lexis, &self.subject, &|_| None).is_ok();
+        if is_own(&name) && self.lexis.has_defined(&name) && is_elsewhere() && is_told {
+            self.lexis.forget_frames();
+            self.named_under.clear();
         }
     }
 

@@ -191,6 +191,8 @@ pub(super) struct Walk<'a> {
     printed_last: Option<(Matrix, usize)>,
     /// The statement before which another one is read.
     reader: Option<usize>,
+    /// The headings under which they stand.
+    named_under: BTreeMap<String, Option<Range<usize>>>,
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,
     /// How far its values were read.
@@ -273,6 +275,7 @@ impl<'a> Walk<'a> {
             printed_last: None,
             reader: None,
             last_prose: 0..0,
+            named_under: BTreeMap::new(),
             last_heading: 0..0,
             last_end: 0,
             at: Configuration::default(),
