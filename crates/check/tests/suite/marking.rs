@@ -222,11 +222,62 @@ fn configurations_are_marked_however_they_are_told() {
     let wrong = marks("θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = 60°", vec![configurations()]).remove(0);
     assert_eq!((wrong.points, wrong.slips.len()), (6.0, 1));
     assert_eq!((wrong.slips[0].1, wrong.slips[0].2.as_str()), (ValueSlip::Sign, "(80°, -60°)"));
+    // What may be meant otherwise is nothing wrong: a list without a name, the goal, a sentence.
+    for more in
+        ["(0.5, 0.25)", "[0.8660, 0.5000]", "With both joints at zero, q = (0°, 0°), the arm is stretched."]
+    {
+        assert_eq!(points(&format!("θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = -60°\n\n{more}")), all, "{more}");
+        let one = points(&format!("θ1 = 30°, θ2 = 60°\n\n{more}"));
+        assert_eq!(one, (6.0, 6.0, Some([1, 2])), "{more}");
+    }
+    // Digits that are not there are no reason for full points, nor are radians beyond a turn.
+    let rounded = points("θ1 = 30°, θ2 = 60°\n\nθ1 = 1, θ2 = -1");
+    assert_eq!(rounded, (6.0, 6.0, Some([1, 2])));
+    assert_eq!(points("θ1 = 30°, θ2 = 60°\n\nθ1 = 20, θ2 = 18").0, 6.0);
     // Where none is right they may be no answer: by hand.
     for text in ["θ1 = 31°, θ2 = 61.5°", "q = (31°, 61.5°)", "1. (31°, 61.5°)"] {
         let none = points(text);
         assert!(none.0 == 0.0 && none.1 > 0.0, "{text}: {none:?}");
     }
+}
+
+/// A configuration counts for the pose that it is told for.
+#[test]
+fn configurations_belong_to_their_poses() {
+    let mut item = configurations();
+    item.configurations[1].q = vec![0.2, 0.4];
+    let points = |text: &str| {
+        let mark = marks(text, vec![item.clone()]).remove(0);
+        (mark.points, mark.open)
+    };
+    let [first, second] = ["θ1 = 30°, θ2 = 60°", "θ1 = 0.2000, θ2 = 0.4000"];
+    for (text, expected) in [
+        (format!("## Position 1\n\n{first}\n\n## Position 2\n\n{second}"), (12.0, 0.0)),
+        (format!("## Position 1\n\n{second}\n\n## Position 2\n\n{first}"), (0.0, 12.0)),
+        (format!("{first}\n\n{second}"), (12.0, 0.0)),
+        (format!("{second}\n\n{first}"), (0.0, 12.0)),
+    ] {
+        assert_eq!(points(&text), expected, "{text}");
+    }
+}
+
+/// Links that are the same matrix under each name, and one that is told several times.
+#[test]
+fn a_matrix_counts_once() {
+    let link = |k: usize| {
+        format!(
+            "\\begin{{pmatrix}} C_{k} & -S_{k} & 0 & a_{k} C_{k} \\\\ S_{k} & C_{k} & 0 & a_{k} S_{k} \\\\ 0 & 0 & 1 & 0 \\\\ 0 & 0 & 0 & 1 \\end{{pmatrix}}"
+        )
+    };
+    let points = |names: [&str; 2], of: [usize; 2]| {
+        let text = format!("$${} = {}$$\n\n$${} = {}$$", names[0], link(of[0]), names[1], link(of[1]));
+        marks(&text, vec![item(Subject::Links, None, 12)]).remove(0).points
+    };
+    let names = ["T_{01}", "T_{12}"];
+    assert_eq!(points(names, [1, 2]), 12.0);
+    assert_eq!(points([names[0], names[0]], [1, 1]), 6.0);
+    assert!(points(names, [1, 1]) < 11.0);
+    assert!(points(names, [2, 1]) < 11.0);
 }
 
 #[test]
@@ -246,6 +297,15 @@ fn singular_values_are_marked_however_they_are_told() {
     ] {
         let found = marks(text, asked()).remove(0);
         assert_eq!((found.points, found.open), (points, 0.0), "{text}: {found:?}");
+    }
+    // What is denied, or stands beside others, is marked by hand.
+    for text in [
+        "The arm is never singular at θ2 = 0 and it is regular at θ2 = π.",
+        "For θ2 = 0, π the determinant is not zero.",
+        "Le bras n'est pas singulier pour θ2 = 0, π.",
+    ] {
+        let found = marks(text, asked()).remove(0);
+        assert_eq!((found.points, found.open), (0.0, 12.0), "{text}: {found:?}");
     }
     let determinant = || vec![item(Subject::Determinant, None, 1)];
     for name in ["det J", "|J|", "\\det J"] {
