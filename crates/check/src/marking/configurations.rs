@@ -6,7 +6,7 @@
 //! below the heading of another pose than that which it is right for.
 
 use super::flat::{Flat, Unit, Value};
-use super::{Asked, Rubric};
+use super::{Asked, Rubric, touch};
 use crate::outcome::{Checked, Skipped, Unjudged};
 use crate::plan::kind_of_tables;
 use crate::values_asked::{Answered, ValueSlip};
@@ -14,6 +14,7 @@ use denavit::description::table::grids;
 use denavit::description::{Description, JointKind};
 use denavit::robot::Robot;
 use denavit_reading::document::Format;
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -131,27 +132,47 @@ pub(super) fn answer(rubric: &Rubric, text: &str, format: Format, checked: &mut 
     }
 }
 
-fn touch(a: &Range<usize>, b: &Range<usize>) -> bool {
-    a.start < b.end && b.start < a.end
+/// Parts of a text that are taken, apart from each other.
+#[derive(Default)]
+struct Taken(BTreeMap<usize, usize>);
+
+impl Taken {
+    fn touches(&self, span: &Range<usize>) -> bool {
+        self.0.range(..span.end).next_back().is_some_and(|(_, end)| *end > span.start)
+    }
+
+    fn add(&mut self, span: &Range<usize>) {
+        let mut span = span.clone();
+        while let Some((start, end)) = self.0.range(..span.end).next_back().map(|(s, e)| (*s, *e)) {
+            if end <= span.start {
+                break;
+            }
+            self.0.remove(&start);
+            span = span.start.min(start)..span.end.max(end);
+        }
+        self.0.insert(span.start, span.end);
+    }
 }
 
 /// The configurations of a text, and values of single joints.
 fn told(text: &str, format: Format, kinds: &[JointKind]) -> (Vec<Told>, Vec<Single>) {
     let flat = Flat::of(text);
     let mut found = tables(text, format, kinds);
-    let is_free = |span: &Range<usize>, found: &[Told]| !found.iter().any(|t| touch(&t.span, span));
+    let mut taken = Taken::default();
+    found.iter().for_each(|t| taken.add(&t.span));
     for at in 0..flat.chars.len() {
         if let Some((values, end)) = flat.tuple(at, kinds.len())
             && let Some((start, is_of_joints)) = named(&flat, at, &values)
         {
             let span = flat.span(&(start..end));
-            if is_free(&span, &found) {
+            if !taken.touches(&span) {
+                taken.add(&span);
                 found.push(Told { span, values, is_of_joints });
             }
         }
     }
     let singles: Vec<Single> =
-        singles(&flat, kinds).into_iter().filter(|s| is_free(&s.span, &found)).collect();
+        singles(&flat, kinds).into_iter().filter(|s| !taken.touches(&s.span)).collect();
     let mut group: Vec<&Single> = vec![];
     let mut grouped: Vec<Vec<&Single>> = vec![];
     for single in &singles {
@@ -453,9 +474,14 @@ fn elsewhere(
 /// Whether words stand around values in their line, which may say anything of them.
 fn is_in_sentence(text: &str, span: &Range<usize>) -> bool {
     const MANY: usize = 3;
-    let start = text[..span.start].rfind('\n').map_or(0, |k| k + 1);
-    let end = text[span.end..].find('\n').map_or(text.len(), |k| span.end + k);
-    let around = [&text[start..span.start], &text[span.end..end]];
+    // In bytes.
+    const FAR: usize = 200;
+    let near = (span.start.saturating_sub(FAR)..span.start).find(|&k| text.is_char_boundary(k));
+    let far = (span.end..text.len().min(span.end + FAR)).rev().find(|&k| text.is_char_boundary(k));
+    let before = &text[near.unwrap_or(span.start)..span.start];
+    let behind = &text[span.end..far.unwrap_or(span.end)];
+    let around =
+        [before.rsplit('\n').next().unwrap_or_default(), behind.split('\n').next().unwrap_or_default()];
     let words = around.iter().flat_map(|part| part.split(|c: char| !c.is_alphanumeric()));
     words.filter(|w| w.chars().count() >= 3 && w.chars().all(char::is_alphabetic)).take(MANY).count() == MANY
 }

@@ -339,6 +339,11 @@ fn counted<'a>(text: &str, claim: &'a Claim) -> Vec<&'a Entry> {
     if all.is_empty() { trivial.into_iter().take(1).collect() } else { all }
 }
 
+/// Whether parts of a text have something in common.
+fn touch(a: &Range<usize>, b: &Range<usize>) -> bool {
+    a.start < b.end && b.start < a.end
+}
+
 /// Letters and digits alone, Greek letters by their names.
 fn plain(name: &str) -> String {
     let kept = name.chars().filter(|c| c.is_alphanumeric() || *c == '*');

@@ -2,7 +2,7 @@
 
 use super::configurations::is_slide;
 use super::flat::{Flat, Unit, Value};
-use super::{Rubric, plain};
+use super::{Rubric, plain, touch};
 use crate::facts::About;
 use crate::outcome::{Checked, Standing};
 use crate::values_asked::{Answered, ValueSlip};
@@ -85,10 +85,6 @@ pub(super) fn answer(rubric: &Rubric, text: &str, checked: &mut Checked) {
         let gone: Vec<bool> = checked.claims.iter().map(|c| of_zeros(c) && is_said(&c.span)).collect();
         checked.leave_out(&gone);
     }
-}
-
-fn touch(a: &Range<usize>, b: &Range<usize>) -> bool {
-    a.start < b.end && b.start < a.end
 }
 
 /// What is said of where an arm is singular.
