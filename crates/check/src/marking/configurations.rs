@@ -209,7 +209,7 @@ fn singles(flat: &Flat, kinds: &[JointKind]) -> Vec<Single> {
         if !matches!(flat.get(sign), '=' | '∈' | ':') {
             continue;
         }
-        let (values, end) = flat.values(sign + 1);
+        let (values, end) = flat.result(sign + 1);
         if !values.is_empty() {
             found.push(Single { joint: joint - 1, span: flat.span(&(at..end)), values, place: at..end });
         }

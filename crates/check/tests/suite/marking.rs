@@ -212,6 +212,10 @@ fn configurations_are_marked_however_they_are_told() {
         "| θ1 (rad) | θ2 (rad) |\n|-|-|\n| 1.3963 | -1.0472 |\n| 0.5236 | 1.0472 |",
         "$q_1 = \\begin{pmatrix} 30^\\circ \\\\ 60^\\circ \\end{pmatrix}$, \
          $q_2 = \\begin{pmatrix} 80^\\circ \\\\ -60^\\circ \\end{pmatrix}$",
+        "θ₁ = 30°, θ₂ = 60°\n\nθ₁ = 80°, θ₂ = −60°",
+        "$\\theta_1^{(1)} = 30^\\circ$, $\\theta_2^{(1)} = 60^\\circ$\n\n$\\theta_1^{(2)} = 80^\\circ$, $\\theta_2^{(2)} = -60^\\circ$",
+        "q1a = 30°, q2a = 60°; q1b = 80°, q2b = -60°",
+        "q2 = acos(0.5) = 60°, q1 = 70° - 40° = 30°\n\nq2 = -acos(0.5) = -60°, q1 = 40° + 40° = 80°",
         "1. $\\theta_1 = \\pi/6$, $\\theta_2 = \\frac{\\pi}{3}$\n2. $\\theta_1 = 80°$, $\\theta_2 = -60°$",
     ] {
         assert_eq!(points(text), all, "{text}");

@@ -210,3 +210,17 @@ fn a_missing_factor_of_degrees_is_not_proved() {
         assert_eq!(standing(last), None, "{last}");
     }
 }
+
+/// A matrix of Eigen has the sizes with which it is made.
+#[test]
+fn sizes_of_matrices_are_those_of_their_declaration() {
+    let body = |declared: &str| {
+        format!(
+            "MatrixXd jacobian(double q1, double q2)\n{{\n  {declared}\n  J << -L1*sin(q1) - L2*sin(q1 + q2), -L2*sin(q1 + q2),\n\
+             \x20   L1*cos(q1) + L2*cos(q1 + q2), L2*cos(q1 + q2),\n    1, 1;\n  return J;\n}}\n"
+        )
+    };
+    let found = planar(&body("MatrixXd J(3, 2);"), Dialect::C);
+    assert_eq!(found.iter().map(|f| f.1).collect::<Vec<_>>(), [Standing::Equal], "{found:?}");
+    assert_eq!(planar(&body("MatrixXd J;"), Dialect::C), []);
+}
