@@ -207,13 +207,15 @@ fn closed(source: &str) -> usize {
     end.unwrap_or(source.len())
 }
 
-/// The longest argument that is looked through, in characters.
+/// The longest argument that is looked through, in characters, and in so many brackets.
 const LONGEST: usize = 2_000;
+const DEEPEST: usize = 60;
 
 /// The function of the program in a call of which a place stands.
 fn called<'a>(source: &'a str, at: usize, own: &[&'a str]) -> Option<&'a str> {
     let mut rest = &source[..at];
-    while let Some(open) = opened(rest) {
+    for _ in 0..DEEPEST {
+        let open = opened(rest)?;
         rest = &rest[..open];
         let word = &rest[rest.trim_end_matches(is_part).len()..];
         if own.contains(&word) {

@@ -99,13 +99,15 @@ fn begins_with_step(line: &str) -> bool {
         .trim_start_matches("\\cdot")
         .trim_start();
     let parts = bare.split_once('(').and_then(|(name, rest)| Some((name, rest.split_once(')')?.0)));
-    bare.len() <= LONGEST && parts.is_some_and(|(name, argument)| step(name, argument).is_some())
+    bare.len() <= LONGEST
+        && !bare.contains('=')
+        && parts.is_some_and(|(name, argument)| step(name, argument).is_some())
 }
 
 /// The number of a link and its motions.
 fn link(line: &str) -> Option<(usize, Vec<(Step, String)>)> {
     let (_, number) = head(line)?;
-    let (_, right) = line.split_once('=')?;
+    let (_, right) = line.trim_end().split_once('=')?;
     let mut steps: Vec<(Step, String)> = vec![];
     let mut rest = right.trim_start_matches([' ', '&']);
     while let Some(open) = rest.find('(') {
@@ -131,7 +133,7 @@ fn link(line: &str) -> Option<(usize, Vec<(Step, String)>)> {
 
 /// True for words behind motions that belong to none: apart by two blanks, or in small letters.
 fn is_remark(behind: &str) -> bool {
-    let text = behind.trim_start_matches([',', ';', ' ', '\t']);
+    let text = behind.trim_end().trim_start_matches([',', ';', ' ', '\t']);
     let is_apart =
         behind.starts_with("  ") || behind.starts_with('\t') || behind.trim_start().starts_with([',', ';']);
     let has_motion = text.contains(['(', '=', '\\']) || text.chars().any(|c| c.is_ascii_digit());

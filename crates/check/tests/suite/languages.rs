@@ -136,3 +136,15 @@ fn spanish_sines_and_curly_thetas() {
     assert_eq!(both(text, None, "y", ["+l_2", "-l_2"]), [EQUAL, WRONG]);
     assert_eq!(both(text, None, "p_y", ["0.650", "0.550"]), [EQUAL, WRONG]);
 }
+
+/// Brackets in brackets are matched once, not once for each.
+#[test]
+fn deep_brackets_take_no_time() {
+    let before = std::time::Instant::now();
+    for (word, name, language) in [("// Math.\n", "f(", Dialect::C), ("using X\n", "a[", Dialect::Matlab)] {
+        let options = CheckOptions { language: Some(language), ..CheckOptions::default() };
+        let text = format!("{word}{}", name.repeat(80_000));
+        assert!(check(&text, Format::Plain, None, &options).is_err());
+    }
+    assert!(before.elapsed().as_secs() < 30, "{:?}", before.elapsed());
+}

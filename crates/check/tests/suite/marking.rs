@@ -129,7 +129,11 @@ fn a_slide_with_the_other_sign_is_wrong() {
 
 /// The marks of a document for items that say what they ask for.
 fn marks(text: &str, items: Vec<Item>) -> Vec<Mark> {
-    let text = format!("{TABLE}{text}");
+    marks_of(TABLE, text, items)
+}
+
+fn marks_of(table: &str, text: &str, items: Vec<Item>) -> Vec<Mark> {
+    let text = format!("{table}{text}");
     let mut checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
     let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
     rubric.answer(&text, Format::Markdown, &mut checked);
@@ -250,8 +254,9 @@ fn configurations_are_marked_however_they_are_told() {
 fn configurations_belong_to_their_poses() {
     let mut item = configurations();
     item.configurations[1].q = vec![0.2, 0.4];
+    let table = TABLE.replace("a1", "0.4").replace("a2", "0.3");
     let points = |text: &str| {
-        let mark = marks(text, vec![item.clone()]).remove(0);
+        let mark = marks_of(&table, text, vec![item.clone()]).remove(0);
         (mark.points, mark.open)
     };
     let [first, second] = ["θ1 = 30°, θ2 = 60°", "θ1 = 0.2000, θ2 = 0.4000"];
