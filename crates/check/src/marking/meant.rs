@@ -112,7 +112,7 @@ fn subject(claim: &Claim, robot: &Description) -> Option<Subject> {
 /// The pose by its value, where its name makes it the inverse.
 fn by_value(claim: &Claim, robot: &Description) -> Option<Subject> {
     let About::Matrix(meaning) = &claim.about else { return None };
-    let is_inverse = claim.instead == Some(Instead::Inverse);
+    let is_inverse = matches!(claim.instead, Some(Instead::Inverse));
     if !matches!(meaning, Meaning::Frame { .. }) || claim.standing() != Standing::Wrong || !is_inverse {
         return None;
     }
@@ -120,12 +120,13 @@ fn by_value(claim: &Claim, robot: &Description) -> Option<Subject> {
     of_frames((to, from), robot).filter(|subject| *subject == Subject::Pose)
 }
 
-/// For each claim, whether the same whole matrix stands before it, and right as it is: it says nothing new.
-pub(super) fn repeated(checked: &Checked) -> Vec<bool> {
+/// For each claim, whether the same whole matrix of formulas stands before it, and right as it is: it says nothing new.
+pub(super) fn repeated(text: &str, checked: &Checked) -> Vec<bool> {
     let mut seen: Vec<(usize, (Place, Place))> = vec![];
     let is_again = |claim: &Claim| {
         let About::Matrix(meaning) = &claim.about else { return false };
-        let is_whole = claim.entries.iter().filter(|e| e.place.is_some()).count() >= 12;
+        let is_whole = claim.entries.iter().filter(|e| e.place.is_some()).count() >= 12
+            && form(text, claim) == Some(Form::Formulas);
         let Some(key) = frames(meaning).filter(|_| is_whole && claim.standing() == Standing::Equal) else {
             return false;
         };

@@ -191,7 +191,7 @@ impl Rubric {
         let joints = ["q*", "theta*", "th*"].into_iter().filter(|_| is_of_joints).map(String::from);
         let lines: Vec<String> = patterns.chain(values).chain(joints).collect();
         let mut shares: Vec<Option<f64>> = vec![];
-        let repeated = meant::repeated(checked);
+        let repeated = meant::repeated(text, checked);
         for ((claim, belongs), is_again) in checked.claims.iter().zip(belonging).zip(repeated) {
             let Some(belongs) = belongs[at].filter(|_| !is_again) else { continue };
             if belongs == Belongs::NamedOtherwise {
