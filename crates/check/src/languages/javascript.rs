@@ -106,7 +106,7 @@ fn arrows(out: &mut Respelled<'_>) {
             continue;
         }
         let is_object = text[formula..].starts_with("({");
-        let far = (formula..text.len().min(formula + LONGEST)).rev().find(|&k| text.is_char_boundary(k));
+        let far = (formula..=text.len().min(formula + LONGEST)).rev().find(|&k| text.is_char_boundary(k));
         let ends = outside(&text, formula, far.unwrap_or(formula), ';');
         let Some(&end) = ends.first().filter(|_| !is_object) else {
             continue;

@@ -214,13 +214,20 @@ fn a_missing_factor_of_degrees_is_not_proved() {
 /// A matrix of Eigen has the sizes with which it is made.
 #[test]
 fn sizes_of_matrices_are_those_of_their_declaration() {
-    let body = |declared: &str| {
-        format!(
-            "MatrixXd jacobian(double q1, double q2)\n{{\n  {declared}\n  J << -L1*sin(q1) - L2*sin(q1 + q2), -L2*sin(q1 + q2),\n\
-             \x20   L1*cos(q1) + L2*cos(q1 + q2), L2*cos(q1 + q2),\n    1, 1;\n  return J;\n}}\n"
-        )
+    let head = format!(
+        "{PLANAR}//   joint 3: theta = q3, d = 0, a = L3, alpha = 0\nconst double L1 = 0.4, L2 = 0.3, L3 = 0.2;\n"
+    );
+    let standing = |declared: &str| {
+        let body = format!(
+            "MatrixXd jacobian(double q1, double q2, double q3)\n{{\n  double s1 = sin(q1), s12 = sin(q1 + q2), s123 = sin(q1 + q2 + q3);\n\
+             \x20 double c1 = cos(q1), c12 = cos(q1 + q2), c123 = cos(q1 + q2 + q3);\n  {declared}\n\
+             \x20 J << -L1*s1 - L2*s12 - L3*s123, -L2*s12 - L3*s123, -L3*s123,\n\
+             \x20       L1*c1 + L2*c12 + L3*c123, L2*c12 + L3*c123, L3*c123;\n  return J;\n}}\n"
+        );
+        let options = CheckOptions { language: Some(Dialect::C), ..CheckOptions::default() };
+        let found = check(&format!("{head}{body}"), Format::Plain, None, &options).expect("a table");
+        found.claims.iter().map(|c| c.standing()).collect::<Vec<_>>()
     };
-    let found = planar(&body("MatrixXd J(3, 2);"), Dialect::C);
-    assert_eq!(found.iter().map(|f| f.1).collect::<Vec<_>>(), [Standing::Equal], "{found:?}");
-    assert_eq!(planar(&body("MatrixXd J;"), Dialect::C), []);
+    assert_eq!(standing("MatrixXd J(2, 3);"), [Standing::Equal]);
+    assert_eq!(standing("MatrixXd J;"), []);
 }
