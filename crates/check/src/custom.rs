@@ -12,6 +12,7 @@ use denavit_reading::slip::Points;
 use denavit_symbolic::Expr;
 use denavit_symbolic::vocabulary::plain_name;
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// A name with its meaning.
 #[derive(Clone, Debug)]
@@ -312,7 +313,8 @@ fn frames(subject: &Subject, plain: &str, places: &Places, add: &mut Add<'_>) {
     }
 }
 
-/// Components of a point that words call the origin of a frame: `w = (w_x, w_y), the origin of frame {3}`.
+/// Components of a point that words call the origin of a frame, `w = (w_x, w_y), the origin of frame {3}`, in the base; nothing where
+/// the clause names another frame in which they may be.
 fn told_origins(subject: &Subject, text: &str, places: &Places, add: &mut Add<'_>) {
     const WORDS: [&str; 9] = [
         "origin of frame",
@@ -325,8 +327,6 @@ fn told_origins(subject: &Subject, text: &str, places: &Places, add: &mut Add<'_
         "origine della terna",
         "origem do sistema",
     ];
-    // So far before the words the list of the components may begin.
-    const BEFORE: usize = 60;
     let lower = text.to_ascii_lowercase();
     for (at, word) in WORDS.iter().flat_map(|w| lower.match_indices(w).take(10)) {
         let behind = lower[at + word.len()..].trim_start_matches(|c: char| " $\\{~".contains(c));
@@ -334,20 +334,22 @@ fn told_origins(subject: &Subject, text: &str, places: &Places, add: &mut Add<'_
         let Some(frame) = behind[..digits].parse().ok().filter(|k| (1..=subject.last()).contains(k)) else {
             continue;
         };
-        let start = (at.saturating_sub(BEFORE)..at).find(|&i| text.is_char_boundary(i)).unwrap_or(at);
-        let before = text[start..at].trim_end_matches([' ', ',', '\n', '$']);
-        let is_article = |w: &str| matches!(w, "the" | "der" | "l" | "el" | "o" | "is" | "the\n");
-        let before = match before.rsplit_once([' ', '\n', '\'']) {
-            Some((rest, word)) if is_article(word) => rest.trim_end_matches([' ', ',', '\n', '$']),
-            _ => before,
-        };
-        let Some(list) = before.strip_suffix(')').and_then(|b| b.rsplit_once('(')).map(|b| b.1) else {
+        let behind = text.len() - (behind.len() - digits);
+        let clause = clause(text, at, behind);
+        if is_seen_from_another(&lower[clause.start..at]) || is_seen_from_another(&lower[behind..clause.end])
+        {
             continue;
-        };
-        let names: Vec<String> = list.split(',').map(|n| plain_name(&n.replace('$', ""))).collect();
+        }
+        let list = list_before(&text[clause.start..at]).or_else(|| list_behind(&text[behind..clause.end]));
+        let names: Vec<String> =
+            list.unwrap_or_default().split(',').map(|n| plain_name(&n.replace('$', ""))).collect();
         let stem = names[0].strip_suffix('x').unwrap_or_default();
         let is_list = names.iter().zip(AXES).all(|(n, axis)| n.strip_suffix(axis) == Some(stem));
-        if !(2..=3).contains(&names.len()) || !is_list || !(1..=2).contains(&stem.chars().count()) {
+        let is_letter =
+            (1..=2).contains(&stem.chars().count()) && !stem.contains(|c: char| c.is_ascii_digit());
+        // The hand's own letter stays that.
+        let is_hand = stem.eq_ignore_ascii_case("p") && frame != subject.last();
+        if !(2..=3).contains(&names.len()) || !is_list || !is_letter || is_hand {
             continue;
         }
         let (own, behind) = (subject.transform(Some(0), Some(frame)), subject.transform(None, Some(frame)));
@@ -357,6 +359,78 @@ fn told_origins(subject: &Subject, text: &str, places: &Places, add: &mut Add<'_
             add(name, own.translation.0[r], inverse.0[r]);
         }
     }
+}
+
+/// The clause around a part of a text, as far as it matters.
+fn clause(text: &str, from: usize, to: usize) -> Range<usize> {
+    const FAR: usize = 120;
+    let start = (from.saturating_sub(FAR)..from).find(|&i| text.is_char_boundary(i)).unwrap_or(from);
+    let end = (to..text.len().min(to + FAR)).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(to);
+    let marks = [". ", ".\n", "; ", ": ", ":\n", "\n\n"];
+    let cut = |part: &str| marks.iter().filter_map(|m| part.rfind(m).map(|i| i + m.len())).max();
+    let start = start + cut(&text[start..from]).unwrap_or(0);
+    let behind = &text[to..end];
+    let end = marks.iter().filter_map(|m| behind.find(m)).min().map_or(end, |i| to + i);
+    start..end
+}
+
+/// True if a part of a clause names a frame other than the base, or says that something is seen from elsewhere.
+fn is_seen_from_another(part: &str) -> bool {
+    const FRAMES: [&str; 6] = ["frame", "system", "repère", "rep\\`ere", "terna", "sistema"];
+    const SEEN: [&str; 12] = [
+        "seen",
+        "view",
+        "relativ",
+        "respect",
+        "express",
+        "gesehen",
+        "bezüglich",
+        "rapport",
+        "exprim",
+        "rispetto",
+        "would",
+        "along",
+    ];
+    let is_base = ["base", "basis", "basi", "frame 0", "{0", "system 0"].iter().any(|w| part.contains(w));
+    let names_frame = FRAMES.iter().flat_map(|w| part.match_indices(w).map(|m| m.0 + w.len())).any(|i| {
+        let number = part[i..].trim_start_matches(|c: char| " $\\{~".contains(c));
+        number.starts_with(|c: char| c.is_ascii_digit() && c != '0')
+    });
+    names_frame || (SEEN.iter().any(|w| part.contains(w)) && !is_base)
+}
+
+/// The list that a part of a text ends with: `w = (w_x, w_y) be the`, `w = (w_x, w_y) (the`.
+fn list_before(part: &str) -> Option<&str> {
+    const WORDS: [&str; 18] = [
+        "the", "be", "is", "as", "der", "den", "ist", "sei", "l", "est", "soit", "el", "es", "sea", "o", "é",
+        "seja", "la",
+    ];
+    let mut rest = part;
+    for _ in 0..4 {
+        rest = rest.trim_end_matches([' ', ',', '\n', '$', '(', '\'', '’', '~']);
+        let word = rest.rsplit([' ', '\n', '$', ')', '(']).next().unwrap_or_default();
+        if !WORDS.contains(&word) {
+            break;
+        }
+        rest = &rest[..rest.len() - word.len()];
+    }
+    let (before, list) = rest.strip_suffix(')')?.rsplit_once('(')?;
+    // `{}^1 w = (…)` is in a frame.
+    let name = before.rsplit([' ', '\n']).next().unwrap_or_default();
+    (!before.ends_with('^') && !name.contains('^')).then_some(list)
+}
+
+/// The list that a part of a text says to be what stands before it: `} is w = (w_x, w_y)`.
+fn list_behind(part: &str) -> Option<&str> {
+    const WORDS: [&str; 9] = ["is", "be", "ist", "sei", "est", "es", "è", "é", "liegt"];
+    let rest = part.trim_start_matches([' ', '\\', '}', '$', ')', ',', '\n', '~']);
+    let word =
+        WORDS.iter().find(|w| rest.strip_prefix(**w).is_some_and(|r| r.starts_with([' ', '\n', '~'])))?;
+    let (name, rest) = rest[word.len()..].split_once('(')?;
+    let name = name.trim_matches([' ', '$', '\n', '=', '~']);
+    let (list, _) = rest.split_once(')')?;
+    let is_name = name.chars().count() <= 2 && name.chars().all(char::is_alphabetic);
+    (is_name || matches!(name, "at" | "bei" | "en" | "in")).then_some(list)
 }
 
 /// Entries of the rotation of the wrist, frame 6 in frame 3: `m_{13}`, where a text has several of them and speaks of that frame.

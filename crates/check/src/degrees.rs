@@ -1,5 +1,10 @@
 //! Programs that have the angles of joints in degrees, and turn them by constants of their own: `j1 * RAD`, `atan2(s, c) * DEG`.
 
+use denavit_reading::code::Dialect;
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, Node};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The names of constants that turn degrees into radians, and radians into degrees.
@@ -10,29 +15,10 @@ pub(crate) struct Conversions {
 }
 
 impl Conversions {
-    /// Those that a program defines, `const float RAD = PI / 180.0`, `#define DEG (180/M_PI)`, if it turns a joint into radians by one of
-    /// them: else its joints may be in radians.
-    pub fn of(text: &str, span: &Range<usize>, is_angle: &dyn Fn(&str) -> bool) -> Self {
-        let found = Conversions::defined(text, span);
-        let program = text.get(span.clone()).unwrap_or_default();
-        let is_part = |c: char| c.is_alphanumeric() || c == '_';
-        let turns = |constant: &String| {
-            program.match_indices(constant.as_str()).any(|(at, _)| {
-                let before =
-                    program[..at].trim_end().strip_suffix('*').map(str::trim_end).unwrap_or_default();
-                let name = &before[before.trim_end_matches(is_part).len()..];
-                let behind =
-                    program[at + constant.len()..].trim_start().strip_prefix('*').unwrap_or_default();
-                let next = behind.trim_start().split(|c| !is_part(c)).next().unwrap_or_default();
-                is_angle(name) || is_angle(next)
-            })
-        };
-        if found.per_degree.iter().any(turns) { found } else { Conversions::default() }
-    }
-
-    fn defined(text: &str, span: &Range<usize>) -> Self {
+    /// Those that a program defines, `const float RAD = PI / 180.0`, `#define DEG (180/M_PI)`.
+    fn defined(program: &str) -> Self {
         let mut found = Conversions::default();
-        for line in text.get(span.clone()).unwrap_or_default().lines().filter(|l| l.len() < 200) {
+        for line in program.lines().filter(|l| l.len() < 200) {
             for part in line.split([';', ',']) {
                 let told = match part.trim_start().strip_prefix("#define ") {
                     Some(rest) => rest.trim().split_once(char::is_whitespace),
@@ -62,35 +48,305 @@ impl Conversions {
     pub fn names(&self) -> impl Iterator<Item = &String> {
         self.per_degree.iter().chain(&self.per_radian)
     }
+}
 
-    /// True if all angles of joints of a function are in degrees: what gives one its value turns it into degrees, and each sine of one
-    /// turns it into radians.
-    pub(super) fn hold_in<'a>(
-        &self,
-        text: &str,
-        mut parts: impl Iterator<Item = &'a (String, Range<usize>)>,
-        is_joint: &dyn Fn(&str) -> bool,
-    ) -> bool {
-        parts.all(|(name, formula)| {
-            let source = &text[formula.clone()];
-            let gives = is_joint(name) && INVERSE.iter().any(|f| source.contains(f));
-            (!gives || has_word(source, &self.per_radian)) && self.turns_all(source, is_joint)
-        })
+/// In what a function has the angles of joints.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Angles {
+    Radians,
+    Degrees,
+    /// Nothing says which.
+    Open,
+}
+
+/// A function by its head.
+struct Function {
+    span: Range<usize>,
+    name: String,
+    /// One of its parameters is an angle of a joint.
+    takes: bool,
+    /// It turns one into radians itself, not for another function.
+    turns: bool,
+    /// It hands one in radians to another function.
+    hands: bool,
+    /// A sine or cosine of one has no factor.
+    is_plain: bool,
+}
+
+/// Where a program turns the angles of joints into radians by constants of its own, `cos(j1 * RAD)`: function by function, in its code alone.
+pub(crate) struct Turned {
+    pub constants: Conversions,
+    functions: Vec<Function>,
+    /// What stands outside of functions.
+    script: Function,
+    /// Functions that are called with joints in radians.
+    given_radians: Vec<String>,
+}
+
+impl Turned {
+    /// `program` is a text without comments, `functions` are those in it, with their heads.
+    pub fn of(program: &str, functions: &[Range<usize>], is_angle: &dyn Fn(&str) -> bool) -> Self {
+        let constants = Conversions::defined(program);
+        let heads: Vec<(String, Vec<&str>)> =
+            functions.iter().map(|f| head(program.get(f.clone()).unwrap_or_default())).collect();
+        let own: Vec<&str> = heads.iter().map(|h| h.0.as_str()).collect();
+        let mut given_radians = vec![];
+        let mut read = |span: Range<usize>, source: &str, name: String, takes: bool| {
+            let (mut turns, mut hands) = (false, false);
+            for at in constants.per_degree.iter().flat_map(|c| turned(source, c, is_angle)) {
+                match called(source, at, &own) {
+                    Some(other) if other != name => {
+                        hands = true;
+                        given_radians.push(other.to_string());
+                    }
+                    _ => turns = true,
+                }
+            }
+            let is_plain = has_plain_sine(source, &constants.per_degree, is_angle);
+            Function { span, name, takes, turns, hands, is_plain }
+        };
+        let mut outside = program.as_bytes().to_vec();
+        let mut all = vec![];
+        for (span, (name, parameters)) in functions.iter().zip(&heads) {
+            let source = program.get(span.clone()).unwrap_or_default();
+            all.push(read(span.clone(), source, name.clone(), parameters.iter().any(|p| is_angle(p))));
+            outside[span.clone()].fill(b' ');
+        }
+        let outside = String::from_utf8(outside).unwrap_or_default();
+        let script = read(0..0, &outside, String::new(), false);
+        Turned { constants, functions: all, script, given_radians }
     }
 
-    /// True if each sine and cosine of joints has a factor that turns degrees into radians.
-    fn turns_all(&self, source: &str, is_joint: &dyn Fn(&str) -> bool) -> bool {
-        ["sin", "cos", "tan"].iter().flat_map(|f| source.match_indices(f)).all(|(at, f)| {
-            let rest = source[at + f.len()..].trim_start_matches('f');
-            let Some(inner) = rest.strip_prefix('(') else { return true };
-            let mut depth = 1_i32;
-            let end = inner.char_indices().find_map(|(i, c)| {
-                depth += i32::from(c == '(') - i32::from(c == ')');
-                (depth == 0).then_some(i)
-            });
-            let argument = &inner[..end.unwrap_or(inner.len())];
-            !names_in(argument).any(is_joint) || has_word(argument, &self.per_degree)
-        })
+    /// True if some joint is turned somewhere.
+    fn is_any(&self) -> bool {
+        self.functions.iter().chain([&self.script]).any(|f| f.turns || f.hands)
+    }
+
+    /// The angles of the function at a place, of what stands outside of functions where there is none.
+    pub fn angles(&self, span: Option<&Range<usize>>) -> Angles {
+        let at = |s: &Range<usize>| {
+            let own = self.functions.iter().filter(|f| f.span.start <= s.start && s.start < f.span.end);
+            own.max_by_key(|f| f.span.start)
+        };
+        let f = span.and_then(at).unwrap_or(&self.script);
+        let others_turn = self.functions.iter().any(|f| f.turns);
+        match () {
+            () if !self.is_any() => Angles::Radians,
+            () if f.turns || f.hands => Angles::Degrees,
+            () if f.takes && (!others_turn || self.given_radians.contains(&f.name)) => Angles::Radians,
+            () if !others_turn && !self.script.turns => Angles::Radians,
+            () if f.takes || f.is_plain => Angles::Open,
+            () => Angles::Degrees,
+        }
+    }
+
+    /// The angles of all functions, if they have one unit.
+    pub fn of_all(&self) -> Angles {
+        let own = |f: &Function| self.angles(Some(&f.span));
+        let telling = self.functions.iter().filter(|f| f.takes || f.turns || f.is_plain);
+        let mut all = telling.map(own);
+        let Some(first) = all.next() else { return self.angles(None) };
+        if all.all(|a| a == first) { first } else { Angles::Open }
+    }
+}
+
+/// The name and the parameters of a function: `void f(float j1, float j2)`, `function [x, y] = f(j1, j2)`.
+fn head(source: &str) -> (String, Vec<&str>) {
+    let (left, rest) = source.split_once('(').unwrap_or((source, ""));
+    let inside = rest.split_once(')').map_or("", |r| r.0);
+    let name = names_in(left.trim_end().trim_end_matches('=')).last().unwrap_or_default();
+    (name.into(), names_in(inside).collect())
+}
+
+fn is_part(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Where a constant is a factor of angles: `j1 * RAD`, `RAD * (j1 + j2)`.
+fn turned<'a>(
+    source: &'a str,
+    constant: &'a str,
+    is_angle: &'a dyn Fn(&str) -> bool,
+) -> impl Iterator<Item = usize> + 'a {
+    let has_angle = move |part: &str| names_in(part).any(is_angle);
+    source.match_indices(constant).map(|m| m.0).filter(move |&at| {
+        let behind = &source[at + constant.len()..];
+        if source[..at].ends_with(is_part) || behind.starts_with(is_part) {
+            return false;
+        }
+        let before = source[..at].trim_end().strip_suffix('*').map_or("", str::trim_end);
+        let left = match before.strip_suffix(')') {
+            Some(inner) => opened(inner).map_or("", |open| &inner[open + 1..]),
+            None => &before[before.trim_end_matches(is_part).len()..],
+        };
+        let after = behind.trim_start().strip_prefix('*').map_or("", str::trim_start);
+        let right = match after.strip_prefix('(') {
+            Some(inner) => &inner[..closed(inner)],
+            None => after.split(|c| !is_part(c)).next().unwrap_or_default(),
+        };
+        has_angle(left) || has_angle(right)
+    })
+}
+
+/// Where the bracket stands that is open at the end.
+fn opened(source: &str) -> Option<usize> {
+    let mut depth = 0_i32;
+    source.char_indices().rev().take(LONGEST).find_map(|(i, c)| {
+        depth += i32::from(c == ')') - i32::from(c == '(');
+        (depth < 0).then_some(i)
+    })
+}
+
+/// How long what stands before the bracket is that closes.
+fn closed(source: &str) -> usize {
+    let mut depth = 0_i32;
+    let end = source.char_indices().take(LONGEST).find_map(|(i, c)| {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        (depth < 0).then_some(i)
+    });
+    end.unwrap_or(source.len())
+}
+
+/// The longest argument that is looked through, in characters, and in so many brackets.
+const LONGEST: usize = 2_000;
+const DEEPEST: usize = 60;
+
+/// The function of the program in a call of which a place stands.
+fn called<'a>(source: &'a str, at: usize, own: &[&'a str]) -> Option<&'a str> {
+    let mut rest = &source[..at];
+    for _ in 0..DEEPEST {
+        let open = opened(rest)?;
+        rest = &rest[..open];
+        let word = &rest[rest.trim_end_matches(is_part).len()..];
+        if own.contains(&word) {
+            return Some(word);
+        }
+    }
+    None
+}
+
+/// True if a sine, cosine or tangent of a joint has no constant as a factor.
+fn has_plain_sine(source: &str, constants: &[String], is_angle: &dyn Fn(&str) -> bool) -> bool {
+    ["sin", "cos", "tan"].iter().flat_map(|f| source.match_indices(f)).any(|(at, f)| {
+        let rest = source[at + f.len()..].trim_start_matches('f');
+        let Some(inner) = rest.strip_prefix('(') else { return false };
+        let argument = &inner[..closed(inner)];
+        names_in(argument).any(is_angle) && !names_in(argument).any(|w| constants.iter().any(|c| c == w))
+    })
+}
+
+/// A text in which comments, texts in quotes and what is no program are blanks, in as many bytes.
+pub(crate) fn code_alone(text: &str, blocks: &[Range<usize>], language: Dialect) -> String {
+    let mut out: Vec<u8> = text.bytes().map(|b| if b == b'\n' { b } else { b' ' }).collect();
+    let source = text.as_bytes();
+    for block in blocks.iter().filter(|b| text.get((*b).clone()).is_some()) {
+        let mut at = block.start;
+        // What ends a comment or a text in quotes that is open.
+        let mut until: Option<&[u8]> = None;
+        while at < block.end {
+            let rest = &source[at..block.end];
+            if let Some(end) = until {
+                if rest.starts_with(end) {
+                    at += end.len();
+                    until = None;
+                } else {
+                    at += 1;
+                }
+                continue;
+            }
+            let opens: &[(&[u8], &[u8])] = match language {
+                Dialect::C => &[(b"//", b"\n"), (b"/*", b"*/"), (b"\"", b"\"")],
+                Dialect::Python => {
+                    &[(b"#", b"\n"), (b"\"\"\"", b"\"\"\""), (b"'''", b"'''"), (b"\"", b"\""), (b"'", b"'")]
+                }
+                Dialect::Matlab => &[(b"%", b"\n"), (b"#", b"\n")],
+            };
+            match opens.iter().find(|(open, _)| rest.starts_with(open)) {
+                Some((open, end)) => {
+                    at += open.len();
+                    until = Some(end);
+                }
+                None => {
+                    out[at] = source[at];
+                    at += 1;
+                }
+            }
+        }
+    }
+    String::from_utf8(out).unwrap_or_default()
+}
+
+/// Powers of degrees and of radians in a quantity.
+type Unit = [i32; 2];
+const NONE: Unit = [0, 0];
+const DEGREES: Unit = [1, 0];
+const RADIANS: Unit = [0, 1];
+
+/// The units of the names of a function, formula by formula.
+pub(super) struct Units<'a> {
+    constants: &'a Conversions,
+    is_joint: &'a dyn Fn(&str) -> bool,
+    known: BTreeMap<String, Unit>,
+}
+
+impl<'a> Units<'a> {
+    pub fn new(constants: &'a Conversions, is_joint: &'a dyn Fn(&str) -> bool) -> Self {
+        Units { constants, is_joint, known: BTreeMap::new() }
+    }
+
+    /// True if a formula has one unit throughout, and that of a joint is degrees: each sine has radians, and each arctangent has one
+    /// factor. Notes what its name then is.
+    pub fn hold_in(&mut self, name: &str, formula: &str) -> bool {
+        let Ok(value) = parse(formula, &Vocabulary::new().open(true)) else { return false };
+        let Some(unit) = self.of(value) else { return false };
+        self.known.insert(name.into(), unit);
+        !(self.is_joint)(name) || unit == DEGREES || unit == NONE
+    }
+
+    fn of(&self, e: Expr) -> Option<Unit> {
+        // What is a number is an angle in any unit only if it is 0.
+        let mut units: BTreeMap<Expr, Unit> = BTreeMap::new();
+        for e in Expr::postorder(&[e]) {
+            let own = |e: Expr| units.get(&e).copied();
+            let unit = match e.node() {
+                Node::Number(_) | Node::Pi => NONE,
+                Node::Symbol(s) => self.named(&s.name()),
+                Node::Neg(a) => own(a)?,
+                Node::Add(a, b) | Node::Sub(a, b) => self.sum((a, own(a)?), (b, own(b)?))?,
+                Node::Mul(a, b) => [own(a)?[0] + own(b)?[0], own(a)?[1] + own(b)?[1]],
+                Node::Div(a, b) => [own(a)?[0] - own(b)?[0], own(a)?[1] - own(b)?[1]],
+                Node::Pow(a, n) => [own(a)?[0] * n, own(a)?[1] * n],
+                Node::Sin(a) | Node::Cos(a) => {
+                    (own(a)? == RADIANS || a.symbols().is_empty()).then_some(NONE)?
+                }
+                Node::Sqrt(a) | Node::Sign(a) => (own(a)? == NONE).then_some(NONE)?,
+                Node::Atan2(y, x) => (own(y)? == NONE && own(x)? == NONE).then_some(RADIANS)?,
+            };
+            units.insert(e, unit);
+        }
+        units.get(&e).copied()
+    }
+
+    fn named(&self, name: &str) -> Unit {
+        let is = |names: &[String]| names.iter().any(|n| n == name);
+        match self.known.get(name) {
+            _ if is(&self.constants.per_degree) => [-1, 1],
+            _ if is(&self.constants.per_radian) => [1, -1],
+            Some(unit) => *unit,
+            None if (self.is_joint)(name) => DEGREES,
+            None => NONE,
+        }
+    }
+
+    /// A number is radians beside them, as it is written; beside degrees it is read as radians further on.
+    fn sum(&self, (a, of_a): (Expr, Unit), (b, of_b): (Expr, Unit)) -> Option<Unit> {
+        let is_number = |e: Expr| e.symbols().is_empty();
+        match () {
+            () if of_a == of_b || b.is_zero() => Some(of_a),
+            () if a.is_zero() || (is_number(a) && of_b == RADIANS && of_a == NONE) => Some(of_b),
+            () if is_number(b) && of_a == RADIANS && of_b == NONE => Some(of_a),
+            () => None,
+        }
     }
 }
 
@@ -101,10 +357,6 @@ pub(super) fn names_in(formula: &str) -> impl Iterator<Item = &str> {
 
 /// Functions by which inverse formulas are told.
 pub(super) const INVERSE: [&str; 7] = ["atan2", "arctan", "atan(", "acos", "arccos", "asin", "arcsin"];
-
-fn has_word(source: &str, names: &[String]) -> bool {
-    names_in(source).any(|w| names.iter().any(|n| n == w))
-}
 
 /// A constant without what spelling adds: `(float)(M_PI / 180.0)` is `pi/180`.
 fn plain(source: &str) -> String {
@@ -118,7 +370,6 @@ fn plain(source: &str) -> String {
 
 /// A formula without a constant as a factor, in as many bytes: `(a + b) * RAD` is `(a + b)`.
 pub(super) fn without_factor(text: &str, name: &str) -> String {
-    let is_part = |c: char| c.is_alphanumeric() || c == '_';
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(i) = rest.find(name) {
@@ -145,21 +396,66 @@ pub(super) fn without_factor(text: &str, name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Conversions, without_factor};
+    use super::{Angles, Conversions, Turned, Units, code_alone, without_factor};
+    use denavit_reading::code::Dialect;
+
+    const CONSTANTS: &str = "const float RAD = PI / 180.0;\n#define DEG (180/M_PI)\nconst float L = 3.0;\n";
+
+    fn is_joint(name: &str) -> bool {
+        matches!(name, "j1" | "j2")
+    }
 
     #[test]
     fn constants_that_turn_degrees() {
-        let text = "const float RAD = PI / 180.0;\n#define DEG (180/M_PI)\nconst float L = 3.0;\n";
-        let found = Conversions::of(text, &(0..text.len()), &|name| name == "j1");
-        assert_eq!(found, Conversions::default(), "no joint is turned");
-        let text = format!("{text}x = cos(j1 * RAD);\n");
-        let found = Conversions::of(&text, &(0..text.len()), &|name| name == "j1");
+        let found = Conversions::defined(CONSTANTS);
         assert_eq!(found.per_degree, ["RAD"]);
         assert_eq!(found.per_radian, ["DEG"]);
         for (formula, now) in
             [("sin(a * RAD)", "sin(a      )"), ("RAD * a", "      a"), ("xRAD * a", "xRAD * a")]
         {
             assert_eq!(without_factor(formula, "RAD"), now);
+        }
+    }
+
+    #[test]
+    fn each_function_has_angles_of_its_own() {
+        use Angles::{Degrees, Open, Radians};
+        let turns = "float f(float j1) { return cos(j1 * RAD); }";
+        let sums = "float f(float j1, float j2) { return cos(RAD * (j1 + j2)); }";
+        let plain = "float g(float j1) { return cos(j1); }";
+        let of_globals = "float g() { return cos(j1); }";
+        let hands = "float f(float j1) { return g(j1 * RAD); }";
+        for (first, second, expected) in [
+            (turns, plain, [Degrees, Open]),
+            (sums, of_globals, [Degrees, Open]),
+            (hands, plain, [Degrees, Radians]),
+            (of_globals, plain, [Radians, Radians]),
+            ("float f(float j1) { return cos(j1); /* j1 * RAD */ }", plain, [Radians, Radians]),
+        ] {
+            let text = format!("{CONSTANTS}{first}\n{second} // j2 * RAD\n");
+            let at = text.find(first).unwrap();
+            let next = text.find(second).unwrap();
+            let functions = [at..at + first.len(), next..next + second.len()];
+            let program = code_alone(&text, &[0..text.len()], Dialect::C);
+            let turned = Turned::of(&program, &functions, &is_joint);
+            assert_eq!([0, 1].map(|k| turned.angles(Some(&functions[k]))), expected, "{first}");
+        }
+    }
+
+    #[test]
+    fn formulas_have_one_unit() {
+        let constants = Conversions::defined(CONSTANTS);
+        for (formula, holds) in [
+            ("(atan2(y, x) - atan2(L, x)) * DEG", true),
+            ("atan2(y, x) * DEG - atan2(L * sin(j2 * RAD), x) * DEG", true),
+            ("(atan2(y, x) - pi/2) * DEG", true),
+            ("atan2(y, x) * DEG - atan2(L * sin(j2 * RAD), x)", false),
+            ("atan2(y, x) * DEG - atan2(L * sin(j2 * RAD * RAD), x) * DEG", false),
+            ("atan2(y, x) * DEG - 90", false),
+            ("atan2(y, x)", false),
+        ] {
+            let mut units = Units::new(&constants, &is_joint);
+            assert_eq!(units.hold_in("j1", formula), holds, "{formula}");
         }
     }
 }

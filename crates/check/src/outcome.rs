@@ -97,7 +97,7 @@ impl Checked {
     /// The number of claims of each kind.
     pub fn tally(&self) -> Tally {
         let mut tally = Tally { unjudged: self.unjudged.len(), ..Tally::default() };
-        for answered in &self.answered {
+        for answered in self.answered.iter().filter(|a| !a.by_hand) {
             match answered.slip {
                 None => tally.equal += 1,
                 Some(_) => tally.wrong += 1,

@@ -28,6 +28,8 @@ pub struct Answered {
     pub right: String,
     /// As how many formulas it counts.
     pub counts: usize,
+    /// It may be right or no answer: it is marked by hand.
+    pub by_hand: bool,
 }
 
 /// How a value differs from the right one.

@@ -1,6 +1,6 @@
 //! JavaScript and TypeScript as C.
 
-use super::{Respelled, closing, outside, word_before};
+use super::{Brackets, LONGEST, Respelled, outside, word_before};
 
 /// A program of JavaScript as one of C; nothing for other texts.
 pub(crate) fn as_c(text: &str) -> Option<String> {
@@ -30,10 +30,11 @@ fn without_words(out: &mut Respelled<'_>) {
     for (at, mark) in text.match_indices("===").chain(text.match_indices("!==")) {
         out.write(at, at + mark.len(), &mark[..2]);
     }
+    let brackets = Brackets::of(text);
     for (at, _) in text.match_indices('{') {
         let before = text[..at].trim_end();
         let (start, word) = word_before(text, before.len());
-        let Some(close) = closing(text, at).filter(|_| matches!(word, "const" | "let" | "var")) else {
+        let Some(close) = brackets.closing(at).filter(|_| matches!(word, "const" | "let" | "var")) else {
             continue;
         };
         // `const { sin, cos } = Math;`
@@ -64,8 +65,9 @@ fn without_types(out: &mut Respelled<'_>) {
 /// Parameters that are taken out of objects stand by themselves: `f(q1, { L1, L2 })`.
 fn objects_taken_apart(out: &mut Respelled<'_>) {
     let text = out.text;
+    let brackets = Brackets::of(text);
     for (open, _) in text.match_indices('(') {
-        let Some(close) = closing(text, open) else { continue };
+        let Some(close) = brackets.near(open) else { continue };
         let rest = text[close + 1..].trim_start();
         let is_head = rest.starts_with('{') || rest.starts_with("=>");
         let (start, _) = word_before(text, open);
@@ -104,7 +106,9 @@ fn arrows(out: &mut Respelled<'_>) {
             continue;
         }
         let is_object = text[formula..].starts_with("({");
-        let Some(&end) = outside(&text, formula, text.len(), ';').first().filter(|_| !is_object) else {
+        let far = (formula..=text.len().min(formula + LONGEST)).rev().find(|&k| text.is_char_boundary(k));
+        let ends = outside(&text, formula, far.unwrap_or(formula), ';');
+        let Some(&end) = ends.first().filter(|_| !is_object) else {
             continue;
         };
         if out.write(from, formula, &format!("T {name}({parameters}){{return ")) {
@@ -116,9 +120,10 @@ fn arrows(out: &mut Respelled<'_>) {
 /// `return { x: a, y: b };` as `x = a; y = b;`, and `return { x, y };` as `return x, y;`
 fn objects_given_back(out: &mut Respelled<'_>) {
     let text = out.now();
+    let brackets = Brackets::of(&text);
     for (at, word) in text.match_indices("return {") {
         let open = at + word.len() - 1;
-        let Some(close) = closing(&text, open) else { continue };
+        let Some(close) = brackets.near(open) else { continue };
         let colons = outside(&text, open + 1, close, ':');
         // `a ? b : c`
         if !outside(&text, open + 1, close, '?').is_empty() {

@@ -1,6 +1,6 @@
 //! Julia as MATLAB.
 
-use super::{Respelled, closing, outside, word_before};
+use super::{Brackets, Respelled, outside, word_before};
 
 /// A program of Julia as one of MATLAB; nothing for other texts.
 pub(crate) fn as_matlab(text: &str) -> Option<String> {
@@ -64,9 +64,10 @@ fn words(out: &mut Respelled<'_>) {
 /// `w[1]` as `w(1)`.
 fn indices(out: &mut Respelled<'_>) {
     let text = out.now();
+    let brackets = Brackets::of(&text);
     for (open, _) in text.match_indices('[') {
         let is_behind = text[..open].ends_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | ')'));
-        if let Some(close) = closing(&text, open).filter(|_| is_behind) {
+        if let Some(close) = brackets.closing(open).filter(|_| is_behind) {
             out.write(open, open + 1, "(");
             out.write(close, close + 1, ")");
         }
@@ -76,12 +77,13 @@ fn indices(out: &mut Respelled<'_>) {
 /// `f(x) = formula` as `f=@(x) formula`.
 fn short_functions(out: &mut Respelled<'_>) {
     let text = out.now();
+    let brackets = Brackets::of(&text);
     for line in crate::lines::lines(&text) {
         let source = &text[line.clone()];
         let Some(open) = source.find('(').map(|i| line.start + i) else { continue };
         let (start, name) = word_before(&text, open);
         let is_first = text[line.start..start].trim().is_empty() && !name.is_empty();
-        let Some(close) = closing(&text, open).filter(|c| is_first && *c < line.end) else { continue };
+        let Some(close) = brackets.closing(open).filter(|c| is_first && *c < line.end) else { continue };
         let inner = &text[open + 1..close];
         let is_names = inner.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | ',' | ' '))
             && !inner.trim().starts_with(|c: char| c.is_ascii_digit());
@@ -128,10 +130,11 @@ fn several_names(out: &mut Respelled<'_>) {
 /// `atan(y, x)` as `atan2(y,x)`, where a blank makes room.
 fn arctangents(out: &mut Respelled<'_>) {
     let text = out.now();
+    let brackets = Brackets::of(&text);
     for (at, word) in text.match_indices("atan(") {
         let open = at + word.len() - 1;
         let is_word = !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_');
-        let Some(close) = closing(&text, open).filter(|_| is_word) else { continue };
+        let Some(close) = brackets.near(open).filter(|_| is_word) else { continue };
         let commas = outside(&text, open + 1, close, ',');
         if let [comma] = commas[..] {
             let (y, x) = (text[open + 1..comma].trim(), text[comma + 1..close].trim());

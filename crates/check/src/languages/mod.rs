@@ -6,6 +6,8 @@ mod julia;
 pub(super) use javascript::as_c;
 pub(super) use julia::as_matlab;
 
+use std::collections::BTreeMap;
+
 /// A text whose bytes are written over.
 struct Respelled<'a> {
     text: &'a str,
@@ -43,22 +45,34 @@ impl<'a> Respelled<'a> {
     }
 }
 
-/// The place of the bracket that closes the one at `open`.
-fn closing(text: &str, open: usize) -> Option<usize> {
-    let mut depth = 0_usize;
-    for (i, c) in text[open..].char_indices() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => {
-                depth = depth.checked_sub(1)?;
-                if depth == 0 {
-                    return Some(open + i);
-                }
+/// No list of arguments is longer, in bytes.
+const LONGEST: usize = 4_000;
+
+/// The brackets of a text, each with that which closes it.
+struct Brackets(BTreeMap<usize, usize>);
+
+impl Brackets {
+    fn of(text: &str) -> Self {
+        let (mut open, mut pairs) = (vec![], BTreeMap::new());
+        for (i, b) in text.bytes().enumerate() {
+            match b {
+                b'(' | b'[' | b'{' => open.push(i),
+                b')' | b']' | b'}' => pairs.extend(open.pop().map(|o| (o, i))),
+                _ => {}
             }
-            _ => {}
         }
+        Brackets(pairs)
     }
-    None
+
+    /// The place of the bracket that closes the one at `open`.
+    fn closing(&self, open: usize) -> Option<usize> {
+        self.0.get(&open).copied()
+    }
+
+    /// The same, if not too much stands between them.
+    fn near(&self, open: usize) -> Option<usize> {
+        self.closing(open).filter(|close| close - open < LONGEST)
+    }
 }
 
 /// The places of a character that stand in no bracket, within a part of a text.

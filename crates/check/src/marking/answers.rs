@@ -183,6 +183,7 @@ fn judged(
             slip,
             right,
             counts: 1,
+            by_hand: false,
         };
         out.push((answered, statement.sides.len() == 2));
     }

@@ -1,6 +1,7 @@
 //! A text with the marks of LaTeX and Markdown left aside, in which values of joints are looked for: each character with its place.
 
 use denavit_symbolic::greek;
+use denavit_symbolic::parse::subscript;
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -79,13 +80,14 @@ impl Flat {
                     (String::new(), rest.find(['T', 't']).map_or(0, |k| transposed(rest, k)))
                 }
                 '^' if rest.trim_start_matches(['{', '\\']).starts_with("circ") => (String::new(), 0),
+                '^' if numbered(rest).is_some() => (String::new(), numbered(rest).unwrap_or(0)),
                 '−' | '–' => ("-".into(), 0),
                 '≈' => ("=".into(), 0),
                 'ϑ' => ("θ".into(), 0),
                 '\u{200b}' => (String::new(), 0),
                 '\u{a0}' | '~' | '\t' => (" ".into(), 0),
                 '&' => (",".into(), 0),
-                c => (c.to_string(), 0),
+                c => (subscript(c).unwrap_or(c).to_string(), 0),
             };
             for c in shown.chars() {
                 flat.chars.push(c);
@@ -127,6 +129,8 @@ impl Flat {
         let (word, end) = words.iter().find_map(|w| Some((*w, self.has(at, w)?)))?;
         let end = self.skip_blanks_of_index(end);
         let number = self.get(end).to_digit(10)? as usize;
+        // A letter that counts solutions: `q1a`, `q1b`.
+        let end = end + usize::from(matches!(self.get(end + 1), 'a'..='d'));
         if self.get(end + 1).is_alphanumeric() || number == 0 {
             return None;
         }
@@ -213,6 +217,27 @@ impl Flat {
             return None;
         }
         Some((Value { number: sign * number, digit, unit, step: step.then_some(number) }, at))
+    }
+
+    /// Values behind a sign of equality: those behind the last one of a chain, `= acos(0) = 90°`.
+    pub(super) fn result(&self, at: usize) -> (Vec<Value>, usize) {
+        const LONGEST: usize = 80;
+        let (values, end) = self.values(at);
+        if !values.is_empty() {
+            return (values, end);
+        }
+        let (mut depth, mut last) = (0_i32, None);
+        for k in at..self.chars.len().min(at + LONGEST) {
+            match self.get(k) {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth -= 1,
+                '=' => last = Some(k + 1),
+                ',' | ';' if depth == 0 => break,
+                '\n' => break,
+                _ => {}
+            }
+        }
+        last.map_or((vec![], at), |last| self.values(last))
     }
 
     /// A decimal number, a unit of its last digit, and where it ends.
@@ -323,6 +348,16 @@ fn command(rest: &str) -> (String, usize) {
         Some(letter) => (letter.to_string(), length),
         None => ("\\".into(), 0),
     }
+}
+
+/// How many bytes of `{(2)}` tell which solution it is.
+fn numbered(rest: &str) -> Option<usize> {
+    let open = rest.strip_prefix('{').unwrap_or(rest);
+    let inner = open.strip_prefix('(')?;
+    let end = inner.find(|c: char| !c.is_ascii_alphanumeric()).filter(|k| (1..=2).contains(k))?;
+    let closed = inner[end..].strip_prefix(')')?;
+    let closed = closed.strip_prefix('}').unwrap_or(closed);
+    Some(rest.len() - closed.len())
 }
 
 /// How many bytes of `T}` or `\top}` belong to a sign of transposition.

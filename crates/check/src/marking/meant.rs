@@ -109,18 +109,32 @@ fn subject(claim: &Claim, robot: &Description) -> Option<Subject> {
     }
 }
 
-/// What a claim is by its value, where its name makes it the inverse, or another frame.
+/// The pose by its value, where its name makes it the inverse.
 fn by_value(claim: &Claim, robot: &Description) -> Option<Subject> {
     let About::Matrix(meaning) = &claim.about else { return None };
-    if !matches!(meaning, Meaning::Frame { .. }) || claim.standing() != Standing::Wrong {
+    let is_inverse = matches!(claim.instead, Some(Instead::Inverse));
+    if !matches!(meaning, Meaning::Frame { .. }) || claim.standing() != Standing::Wrong || !is_inverse {
         return None;
     }
     let (from, to) = frames(meaning)?;
-    match claim.instead? {
-        Instead::Inverse => of_frames((to, from), robot),
-        Instead::Frame { of, seen_from } => of_frames((Place::Frame(seen_from), Place::Frame(of)), robot),
-        _ => None,
-    }
+    of_frames((to, from), robot).filter(|subject| *subject == Subject::Pose)
+}
+
+/// For each claim, whether the same whole matrix of formulas stands before it, and right as it is: it says nothing new.
+pub(super) fn repeated(text: &str, checked: &Checked) -> Vec<bool> {
+    let mut seen: Vec<(usize, (Place, Place))> = vec![];
+    let is_again = |claim: &Claim| {
+        let About::Matrix(meaning) = &claim.about else { return false };
+        let is_whole = claim.entries.iter().filter(|e| e.place.is_some()).count() >= 12
+            && form(text, claim) == Some(Form::Formulas);
+        let Some(key) = frames(meaning).filter(|_| is_whole && claim.standing() == Standing::Equal) else {
+            return false;
+        };
+        let is_known = seen.contains(&(claim.robot, key));
+        seen.push((claim.robot, key));
+        is_known
+    };
+    checked.claims.iter().map(is_again).collect()
 }
 
 /// A name of a determinant: `det J`, `|J|`.

@@ -191,8 +191,9 @@ impl Rubric {
         let joints = ["q*", "theta*", "th*"].into_iter().filter(|_| is_of_joints).map(String::from);
         let lines: Vec<String> = patterns.chain(values).chain(joints).collect();
         let mut shares: Vec<Option<f64>> = vec![];
-        for (claim, belongs) in checked.claims.iter().zip(belonging) {
-            let Some(belongs) = belongs[at] else { continue };
+        let repeated = meant::repeated(text, checked);
+        for ((claim, belongs), is_again) in checked.claims.iter().zip(belonging).zip(repeated) {
+            let Some(belongs) = belongs[at].filter(|_| !is_again) else { continue };
             if belongs == Belongs::NamedOtherwise {
                 // Each entry is proved to be that of the matrix that is asked for.
                 let count = counted_of_value(text, claim);
@@ -214,6 +215,14 @@ impl Rubric {
             }
         }
         for answered in checked.answered.iter().filter(|a| a.of[0] == at) {
+            if answered.by_hand {
+                if answered.counts > 0 {
+                    shares.extend(vec![None; answered.counts]);
+                    mark.by_hand.push(answered.span.clone());
+                    mark.others.push((answered.name.clone(), Standing::Undecided));
+                }
+                continue;
+            }
             shares.extend(vec![Some(if answered.slip.is_none() { 1.0 } else { 0.0 }); answered.counts]);
             if answered.slip.is_none() {
                 mark.right[0] += answered.counts;
@@ -227,7 +236,7 @@ impl Rubric {
             let found: BTreeSet<usize> = checked
                 .answered
                 .iter()
-                .filter(|a| a.of[0] == at && a.slip.is_none() && a.of[1] >= item.answers.len())
+                .filter(|a| a.of[0] == at && a.slip.is_none() && !a.by_hand && a.of[1] >= item.answers.len())
                 .map(|a| a.of[1])
                 .collect();
             mark.configurations = Some([found.len(), item.configurations.len()]);
@@ -328,6 +337,11 @@ fn counted<'a>(text: &str, claim: &'a Claim) -> Vec<&'a Entry> {
     };
     let (trivial, all): (Vec<&Entry>, Vec<&Entry>) = claim.entries.iter().partition(is_trivial);
     if all.is_empty() { trivial.into_iter().take(1).collect() } else { all }
+}
+
+/// Whether parts of a text have something in common.
+fn touch(a: &Range<usize>, b: &Range<usize>) -> bool {
+    a.start < b.end && b.start < a.end
 }
 
 /// Letters and digits alone, Greek letters by their names.

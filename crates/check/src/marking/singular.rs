@@ -2,10 +2,10 @@
 
 use super::configurations::is_slide;
 use super::flat::{Flat, Unit, Value};
-use super::{Rubric, plain};
+use super::{Rubric, plain, touch};
 use crate::facts::About;
 use crate::outcome::{Checked, Standing};
-use crate::values_asked::Answered;
+use crate::values_asked::{Answered, ValueSlip};
 use denavit::description::{Description, JointKind};
 use denavit_symbolic::Symbol;
 use denavit_symbolic::parse::parse;
@@ -37,31 +37,47 @@ pub(super) fn answer(rubric: &Rubric, text: &str, checked: &mut Checked) {
             continue;
         }
         // What is said, and the zeros that it has.
-        let mut said: Vec<(Range<usize>, BTreeSet<usize>)> = spoken(text, &kinds, &zeros);
+        let mut said: Vec<Said> = spoken(text, &kinds, &zeros);
         for claim in &checked.claims {
             let is_right = claim.about == About::Singularity && claim.standing() == Standing::Equal;
-            if is_right && !said.iter().any(|s| touch(&s.0, &claim.span)) {
+            if is_right && !said.iter().any(|s| touch(&s.span, &claim.span)) {
                 let of = covered(&claim.name, &robot, &zeros);
                 if !of.is_empty() {
-                    said.push((claim.span.clone(), of));
+                    said.push(Said {
+                        span: claim.span.clone(),
+                        of,
+                        is_sure: !is_denied(text, &claim.span),
+                        slip: None,
+                    });
                 }
             }
         }
-        said.sort_by_key(|s| s.0.start);
+        said.sort_by_key(|s| s.span.start);
+        let sure = || said.iter().filter(|s| s.is_sure).flat_map(|s| &s.of);
+        let mut missing = zeros.len().saturating_sub(sure().collect::<BTreeSet<_>>().len());
         let mut done: BTreeSet<usize> = BTreeSet::new();
-        for (span, of) in &said {
-            let new = of.difference(&done).count();
-            done.extend(of);
+        for Said { span, of, is_sure, slip } in &said {
+            let counts = match (is_sure, slip) {
+                (true, None) => of.difference(&done).count(),
+                (true, Some(_)) => 1,
+                // It may be what is missing.
+                (false, _) => of.len().max(1).min(missing),
+            };
+            match is_sure {
+                true => done.extend(of),
+                false => missing -= counts,
+            }
             checked.answered.push(Answered {
                 of: [at, item.answers.len()],
                 span: span.clone(),
                 name: text.get(span.clone()).unwrap_or_default().trim().to_string(),
-                slip: None,
-                right: String::new(),
-                counts: new,
+                slip: *slip,
+                right: if slip.is_some() { all(&item.zeros) } else { String::new() },
+                counts,
+                by_hand: !is_sure,
             });
         }
-        let is_said = |span: &Range<usize>| said.iter().any(|s| touch(&s.0, span));
+        let is_said = |span: &Range<usize>| said.iter().any(|s| touch(&s.span, span));
         checked.unjudged.retain(|u| !is_said(&u.span));
         let of_zeros = |c: &crate::outcome::Claim| {
             matches!(c.about, About::Singularity | About::Equation | About::Joint | About::Configuration)
@@ -71,14 +87,82 @@ pub(super) fn answer(rubric: &Rubric, text: &str, checked: &mut Checked) {
     }
 }
 
-fn touch(a: &Range<usize>, b: &Range<usize>) -> bool {
-    a.start < b.end && b.start < a.end
+/// What is said of where an arm is singular.
+struct Said {
+    span: Range<usize>,
+    of: BTreeSet<usize>,
+    /// Else a teacher looks at it.
+    is_sure: bool,
+    slip: Option<ValueSlip>,
 }
 
-/// Values that a text gives to joints, if the arm is singular at all of them.
-fn spoken(text: &str, kinds: &[JointKind], zeros: &[Zero]) -> Vec<(Range<usize>, BTreeSet<usize>)> {
+/// Words that turn into its opposite what is said of a configuration.
+const DENIED: [&str; 27] = [
+    "not",
+    "no",
+    "never",
+    "nor",
+    "neither",
+    "cannot",
+    "isn",
+    "doesn",
+    "without",
+    "regular",
+    "nonsingular",
+    "except",
+    "unless",
+    "nicht",
+    "nie",
+    "kein",
+    "keine",
+    "regulär",
+    "ohne",
+    "außer",
+    "pas",
+    "jamais",
+    "régulier",
+    "nunca",
+    "non",
+    "mai",
+    "não",
+];
+/// Sentences are not looked through further, in bytes.
+const LONGEST: usize = 400;
+
+/// The sentence around a part of a text.
+fn sentence(text: &str, span: &Range<usize>) -> Range<usize> {
+    let marks = [". ", ".\n", "? ", "! ", "\n\n"];
+    let near = (span.start.saturating_sub(LONGEST)..span.start).find(|&k| text.is_char_boundary(k));
+    let far = (span.end..text.len().min(span.end + LONGEST)).rev().find(|&k| text.is_char_boundary(k));
+    let (near, far) = (near.unwrap_or(span.start), far.unwrap_or(span.end));
+    let start =
+        marks.iter().filter_map(|m| text[near..span.start].rfind(m).map(|k| near + k + m.len())).max();
+    let end = marks.iter().filter_map(|m| text[span.end..far].find(m).map(|k| span.end + k)).min();
+    start.unwrap_or(near)..end.unwrap_or(far)
+}
+
+/// Whether the sentence around a part of a text may deny what it says.
+fn is_denied(text: &str, span: &Range<usize>) -> bool {
+    let lower = text[sentence(text, span)].to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphanumeric());
+    words.any(|w| DENIED.contains(&w)) || ["≠", "\\ne", "!=", "<>"].iter().any(|m| lower.contains(m))
+}
+
+/// Whether the sentence around a part of a text speaks of singularities.
+fn is_of_singularities(text: &str, span: &Range<usize>) -> bool {
+    let lower = text[sentence(text, span)].to_lowercase();
+    ["singul", "singol"].iter().any(|w| lower.contains(w))
+}
+
+/// The values at which an arm is singular, as people write them.
+fn all(zeros: &[(usize, String)]) -> String {
+    zeros.iter().map(|(joint, value)| format!("q{joint} = {value}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Values that a text gives to joints, if the arm is singular at all of them; in a sentence about singularities others, too.
+fn spoken(text: &str, kinds: &[JointKind], zeros: &[Zero]) -> Vec<Said> {
     let flat = Flat::of(text);
-    let mut found = vec![];
+    let mut found: Vec<Said> = vec![];
     for at in 0..flat.chars.len() {
         let Some((joint, end)) = flat.joint(at, |k| is_slide(kinds, k)).filter(|j| j.0 <= kinds.len()) else {
             continue;
@@ -91,8 +175,23 @@ fn spoken(text: &str, kinds: &[JointKind], zeros: &[Zero]) -> Vec<(Range<usize>,
         let kind = kinds[joint - 1];
         let of: Option<Vec<Vec<usize>>> =
             values.iter().map(|v| zeros_of(v, joint - 1, kind, zeros)).collect();
+        let span = flat.span(&(at..end));
         if let Some(of) = of.filter(|of| !of.is_empty()) {
-            found.push((flat.span(&(at..end)), of.into_iter().flatten().collect()));
+            let is_sure = !is_denied(text, &span);
+            found.push(Said { span, of: of.into_iter().flatten().collect(), is_sure, slip: None });
+        } else if !values.is_empty() && is_of_singularities(text, &span) {
+            // Of a joint at whose values the arm is singular another one is wrong, if that is all that is said.
+            let is_known = zeros.iter().any(|z| z.joint == joint - 1);
+            let slip = (is_known && !is_denied(text, &span)).then_some(ValueSlip::Other);
+            found.push(Said { span, of: BTreeSet::new(), is_sure: slip.is_some(), slip });
+        }
+    }
+    // Beside a right value of the same sentence it may be anything.
+    let right = found.iter().filter(|s| s.slip.is_none());
+    let right: Vec<usize> = right.map(|s| sentence(text, &s.span).start).collect();
+    for said in found.iter_mut().filter(|s| s.slip.is_some()) {
+        if right.contains(&sentence(text, &said.span).start) {
+            (said.slip, said.is_sure) = (None, false);
         }
     }
     found

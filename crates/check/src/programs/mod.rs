@@ -6,6 +6,7 @@ mod compared;
 mod defined;
 mod followed;
 mod moving;
+mod piece;
 mod posed;
 mod rows;
 mod shown;
@@ -20,11 +21,11 @@ use super::lexis::Lexis;
 use super::lines::lines;
 use super::matrix::Matrix;
 use super::note::{Unread, Unreadable};
-use super::numbers::{Answer, Configuration, half_unit};
+use super::numbers::Configuration;
 use super::recognised;
 use super::subject::Subject;
-use super::walk::{Assertion, Defined, Pair, Piece, Walk, is_measured};
-use crate::degrees::names_in as words;
+use super::walk::{Assertion, Defined, Piece, Walk};
+use crate::degrees::{Angles, Turned, code_alone, names_in as words};
 use called::{
     as_square, axis_of, determinant_named, given_in, gives_another, is_of_part, is_velocity, joints_taken,
     lacking, names_in, says_inverse, stem, without,
@@ -34,8 +35,9 @@ use denavit::forward::Reference;
 use denavit_reading::code::{Asked, Assigned, Cell, Code, Dialect, Reading, Value, read_blocks};
 use denavit_symbolic::parse::ParseError;
 use denavit_symbolic::vocabulary::Vocabulary;
-use denavit_symbolic::{Expr, Node, Rational, Symbol, equal};
+use denavit_symbolic::{Expr, Symbol, equal};
 use followed::{followed, mended_by};
+use piece::{angles_open, is_moved};
 use posed::Telling;
 use rows::row_function;
 use shown::Showing;
@@ -106,11 +108,13 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         is_component && e.as_symbol().is_some_and(|s| *s.name() == *name) || rates.contains(e)
     };
     let all: String = blocks.iter().filter_map(|b| source.get(b.clone())).collect();
-    let turning = stated::joints_in_degrees(&all, subject, &|name| lexis.names.lookup(name));
-    let meaning = |name: &str| {
+    let turning = stated::turning(subject);
+    let in_radians = |name: &str| {
         let found = lexis.names.lookup(name).filter(|e| !lexis.is_by_custom(name) || load(name, e));
-        found.or_else(|| member(name)).map(|e| if turning.contains(&e) { stated::of_degrees(e) } else { e })
+        found.or_else(|| member(name))
     };
+    let in_degrees =
+        |name: &str| in_radians(name).map(|e| if turning.contains(&e) { stated::of_degrees(e) } else { e });
     let stated = Stated::of(&all, subject);
     let joint = |name: &str| {
         let found = lexis.names.lookup(name)?;
@@ -127,8 +131,36 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     };
     let (mut mended, none) = (BTreeMap::new(), BTreeMap::new());
     let asked =
-        Asked { names: &meaning, joints: &joints, stated: &told, mended: &none, posed: None, own: None };
-    let codes = read_blocks(source, blocks, language, &asked);
+        Asked { names: &in_radians, joints: &joints, stated: &told, mended: &none, posed: None, own: None };
+    let program = code_alone(source, blocks, language);
+    let is_angle = |name: &str| lexis.names.lookup(name).is_some_and(|e| turning.contains(&e));
+    let mut codes = read_blocks(source, blocks, language, &asked);
+    let heads: Vec<Range<usize>> = codes
+        .iter()
+        .flat_map(|c| &c.functions)
+        .filter(|f| !f.name.is_empty())
+        .map(|f| f.span.clone())
+        .collect();
+    let turned = Turned::of(&program, &heads, &is_angle);
+    let angles = |f: &Reading| turned.angles(Some(&f.span).filter(|_| !f.name.is_empty()));
+    let is_turned = |code: &Code| code.functions.iter().any(|f| angles(f) == Angles::Degrees);
+    // Each function with its joints in what it has them in.
+    let chosen = |codes: &mut Vec<Code>, asked: Asked<'_>| {
+        if codes.iter().any(is_turned) {
+            let others = read_blocks(source, blocks, language, &Asked { names: &in_degrees, ..asked });
+            for (code, other) in codes.iter_mut().zip(others) {
+                let own = |f: &&mut Reading| angles(f) == Angles::Degrees;
+                for f in code.functions.iter_mut().filter(own) {
+                    let same = other.functions.iter().find(|o| o.span == f.span && o.name == f.name);
+                    same.into_iter().for_each(|o| *f = o.clone());
+                }
+            }
+        }
+    };
+    chosen(&mut codes, asked);
+    let meaning: &dyn Fn(&str) -> Option<Expr> =
+        if turned.of_all() == Angles::Degrees { &in_degrees } else { &in_radians };
+    let asked = Asked { names: meaning, ..asked };
     let mut found = Programs::default();
     let mut comments = Walk::new(text, subject, habits);
     let has_links = !subject.description.rows.is_empty();
@@ -152,6 +184,10 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         }
         let own: Vec<String> = functions.iter().map(|f| f.name.clone()).filter(|n| !n.is_empty()).collect();
         for function in functions {
+            if angles(function) == Angles::Open && is_moved(function, subject) {
+                found.refused.push(Unread::new(function.span.clone(), angles_open()));
+                continue;
+            }
             let names = Rc::new(names_in(function, lexis));
             let before = codes.iter().flat_map(|c| &c.functions);
             let given = before.filter(|f| f.name.is_empty() || f.name == function.name);
@@ -183,13 +219,15 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
         return found;
     }
     mended.extend(found.assertions.iter().filter_map(mended_by));
-    let truth = match mended.is_empty() {
-        true => None,
-        false => Some(read_blocks(source, blocks, language, &Asked { mended: &mended, ..asked })),
-    };
+    let truth = (!mended.is_empty()).then(|| {
+        let asked = Asked { mended: &mended, names: &in_radians, ..asked };
+        let mut truth = read_blocks(source, blocks, language, &asked);
+        chosen(&mut truth, asked);
+        truth
+    });
     let right = truth.as_deref().unwrap_or(&codes);
     found.followed = followed(source, &codes, right, &found.assertions);
-    let shown = Showing { of, subject, lexis, stated: &stated, meaning: &meaning, judged: &found.assertions };
+    let shown = Showing { of, subject, lexis, stated: &stated, meaning, judged: &found.assertions };
     let (outputs, follow) = shown.outputs(&codes, right);
     found.assertions.extend(outputs);
     found.followed.extend(follow);
@@ -197,6 +235,11 @@ pub(super) fn assertions(of: &Source<'_>, subject: &Rc<Subject>, habits: &Rc<Hab
     found.numbers = numbers(&codes, lexis);
     found.defined = defined(source, &codes, &found.assertions, number);
     let telling = Telling { subject, habits, lexis, functions: of.posed };
+    if turned.of_all() == Angles::Open {
+        let open = of.posed.iter().map(|span| Unread::new(span.clone(), angles_open()));
+        found.refused.extend(open);
+        return found;
+    }
     posed::solutions(of, &telling, &asked, &mut found);
     compared::tests(of, (subject, lexis), &asked, &mut found);
     found
@@ -489,87 +532,6 @@ impl Program<'_> {
             }
         }
         Some(pieces)
-    }
-
-    /// A computed value against the right one; lengths that the program has as numbers are numbers in both.
-    fn piece(&self, place: Option<(usize, usize)>, cell: &Cell, wanted: Expr) -> Piece {
-        let value = in_radians(cell.value);
-        let joints = self.subject.joints();
-        let moves = wanted.symbols().iter().any(|s| joints.contains(&(*s).into()));
-        let is_number = moves && value.symbols().is_empty() && is_measured(value);
-        let line_end =
-            self.text[cell.span.end..].find('\n').map_or(self.text.len(), |i| cell.span.end + i + 1);
-        let at = self.at.iter().rev().find(|p| p.0 <= line_end).map(|p| &p.1);
-        if is_number
-            && let Some(at) = at.filter(|at| at.knows(wanted, self.subject))
-            && let Ok(printed) = value.eval(|_| None)
-        {
-            let half = half_unit(self.text.get(cell.span.clone()).unwrap_or_default());
-            let answer = Answer { printed, half, wanted, at: at.clone(), constant: Some(value) };
-            return Piece::Number { place, span: cell.span.clone(), answer };
-        }
-        if is_number {
-            let errors = vec![Unread::new(cell.span.clone(), Unreadable::NoConfiguration)];
-            return Piece::Unreadable { place, span: cell.span.clone(), errors };
-        }
-        let d = &self.subject.description;
-        let uses = |e: Expr| e.symbols().iter().any(|s| d.parameter(*s).is_some());
-        let wanted = self.with_numbers(wanted, value);
-        // A length that the program has under another name, or one that the robot has not: a tool's.
-        // Rates and loads stand in what is wanted.
-        let of_wanted = wanted.symbols();
-        let is_known =
-            |s: &Symbol| joints.contains(&(*s).into()) || d.parameter(*s).is_some() || of_wanted.contains(s);
-        let differs = || !equal(value, wanted).is_equal();
-        let foreign = value.symbols().into_iter().find(|s| !is_known(s));
-        let has_lengths = Expr::postorder(&[value]).iter().any(|e| match e.node() {
-            Node::Number(r) => !(&r * &Rational::from(2)).is_integer(),
-            _ => false,
-        });
-        let is_lost = |s: &Symbol| has_lengths && d.parameter(*s).is_some() && !uses(value);
-        let lost = wanted.symbols().into_iter().find(is_lost);
-        // What is made of a pose in numbers is a formula of the joints only at that pose.
-        let moved =
-            |e: Expr| e.symbols().into_iter().filter(|s| joints.contains(&(*s).into())).collect::<Vec<_>>();
-        let (own, other) = (moved(value), moved(wanted));
-        let is_apart = !own.is_empty() && !other.is_empty() && !own.iter().any(|s| other.contains(s));
-        let is_measured = |e: &Expr| match e.node() {
-            Node::Number(r) => !(&r * &Rational::from(1000)).is_integer(),
-            _ => false,
-        };
-        let at_pose = is_apart && Expr::postorder(&[value]).iter().any(is_measured);
-        let apart = own.first().copied().filter(|_| at_pose);
-        // A length of the program's own beside all of the robot's, as that of a tool.
-        let numbers = |e: Expr| -> Vec<Rational> {
-            let all = Expr::postorder(&[e]).into_iter().filter_map(|e| e.as_number());
-            all.filter(|r| !(r * &Rational::from(2)).is_integer()).map(|r| r.abs()).collect()
-        };
-        let (mine, theirs) = (numbers(value), numbers(wanted));
-        let has_more = theirs.iter().all(|r| mine.contains(r)) && mine.iter().any(|r| !theirs.contains(r));
-        if has_more && foreign.is_none() && !self.knows_all(&mine) && differs() {
-            let why = Unreadable::Unknown(self.text.get(cell.span.clone()).unwrap_or_default().to_string());
-            let errors = vec![Unread::new(cell.span.clone(), why)];
-            return Piece::Unreadable { place, span: cell.span.clone(), errors };
-        }
-        if let Some(name) = foreign.or(lost).or(apart).filter(|_| differs()) {
-            let errors = vec![Unread::new(cell.span.clone(), Unreadable::Unknown(name.name().to_string()))];
-            return Piece::Unreadable { place, span: cell.span.clone(), errors };
-        }
-        let is_written = value == cell.value && self.text.get(cell.span.clone()).is_some();
-        let printed = cell.syntax.clone().filter(|_| is_written);
-        Piece::Pair(Pair { place, span: cell.span.clone(), printed, value, wanted, also: vec![] })
-    }
-
-    /// What is wanted with the numbers that the program has for lengths, where what is printed has none of these as letters.
-    pub(super) fn with_numbers(&self, wanted: Expr, printed: Expr) -> Expr {
-        let d = &self.subject.description;
-        if printed.symbols().iter().any(|s| d.parameter(*s).is_some()) {
-            return wanted;
-        }
-        wanted.substitute(|s| {
-            let given = self.given.iter().rev().find(|g| g.0 == s).map(|g| g.1);
-            given.or_else(|| d.exact_value(s))
-        })
     }
 
     fn assertion(

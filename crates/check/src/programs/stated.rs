@@ -45,18 +45,10 @@ pub(super) fn of_degrees(e: Expr) -> Expr {
     e * Expr::symbol(PER_RADIAN)
 }
 
-/// The joints that turn, if a program has them in degrees: it turns one of them into radians by a constant of its own, `j1 * RAD`.
-pub(super) fn joints_in_degrees(
-    text: &str,
-    subject: &Subject,
-    meaning: &dyn Fn(&str) -> Option<Expr>,
-) -> Vec<Expr> {
+/// The joints that turn.
+pub(super) fn turning(subject: &Subject) -> Vec<Expr> {
     let variables = subject.description.variables();
-    let turning: Vec<Expr> =
-        variables.iter().filter(|v| v.kind == JointKind::Revolute).map(|v| v.symbol.into()).collect();
-    let is_angle = |name: &str| meaning(name).is_some_and(|e| turning.contains(&e));
-    let conversions = crate::degrees::Conversions::of(text, &(0..text.len()), &is_angle);
-    if conversions.is_empty() { vec![] } else { turning }
+    variables.iter().filter(|v| v.kind == JointKind::Revolute).map(|v| v.symbol.into()).collect()
 }
 
 /// How a script gives joints their values: what it computes from them is read as a formula in the joints.

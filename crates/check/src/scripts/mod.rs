@@ -11,13 +11,14 @@ mod spelling;
 
 use super::directions::DIRECTIONS;
 use super::listing::comment_mark;
-use crate::degrees::{Conversions, INVERSE, names_in};
+use crate::degrees::{Angles, Conversions, INVERSE, Turned, Units, code_alone, names_in};
 pub(super) use computed::computed;
 use denavit_reading::code::{Dialect, is_sign_name};
 use denavit_reading::document::{self, Document, Format, Statement};
 pub(super) use forces::{Forces, forces};
 use spelling::{
-    branches, cleared, defines, is_factor_of_root, renamed, roots, spelled, squeezed, statements_of,
+    branches, cleared, defines, is_factor_of_root, renamed, roots, sign_of_loop, spelled, squeezed,
+    statements_of,
 };
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -97,7 +98,9 @@ pub(super) fn inverse(
     let (mut is_any, mut unread, mut posed) = (false, vec![], vec![]);
     for (span, language) in programs {
         let all = regions(text, span, *language);
-        let conversions = Conversions::of(text, span, is_joint);
+        let functions: Vec<Range<usize>> = all.iter().filter_map(|r| r.function.clone()).collect();
+        let program = code_alone(text, std::slice::from_ref(span), *language);
+        let turned = Turned::of(&program, &functions, is_joint);
         // Numbers that the program gives names beside the functions.
         let mut own: Vec<String> =
             all.iter().take(1).flat_map(|r| &r.lines).flat_map(|l| &l.parts).map(|p| p.0.clone()).collect();
@@ -105,8 +108,7 @@ pub(super) fn inverse(
             let defines = text[span.clone()].lines().filter_map(|l| l.trim_start().strip_prefix("#define "));
             own.extend(defines.filter_map(|l| l.split_whitespace().next()).map(String::from));
         }
-        own.retain(|name| !conversions.names().any(|c| c == name));
-        let functions: Vec<Range<usize>> = all.iter().filter_map(|r| r.function.clone()).collect();
+        own.retain(|name| !turned.constants.names().any(|c| c == name));
         for region in all {
             let solves = |line: &Line| {
                 let has = |part: &(String, Range<usize>)| {
@@ -140,9 +142,20 @@ pub(super) fn inverse(
             let factors: Vec<String> = parameters.filter(|p| is_factor_of_root(&body, p)).cloned().collect();
             let mut region = region;
             region.signs.extend(factors);
-            if !conversions.is_empty()
-                && !conversions.hold_in(text, region.lines.iter().flat_map(|l| &l.parts), is_joint)
-            {
+            let source = &program[whole.clone()];
+            let uses = names_in(source).any(|w| turned.constants.names().any(|c| c == w));
+            let conversions = match turned.angles(region.function.as_ref()) {
+                Angles::Radians if !uses => Conversions::default(),
+                _ => turned.constants.clone(),
+            };
+            let mut units = Units::new(&conversions, is_joint);
+            let plain = Region::new(None, vec![], vec![]);
+            let mut holds = |part: &(String, Range<usize>)| {
+                let formula = spelled(&text[part.1.clone()], &plain, *language);
+                let formula = branches(&formula).unwrap_or(formula).replace('±', "-");
+                says_nothing(&part.0, &formula) || formula.split(" or ").all(|f| units.hold_in(&part.0, f))
+            };
+            if !conversions.is_empty() && !region.lines.iter().flat_map(|l| &l.parts).all(&mut holds) {
                 // Some angles are in degrees and others are not, or it is not known which.
                 let of = |l: &Line| {
                     (l.span.start..l.end, l.parts.first().map(|p| p.0.clone()).unwrap_or_default())
@@ -378,16 +391,6 @@ fn head(line: &str, language: Dialect) -> Option<(Vec<String>, Vec<String>)> {
         parameters.push(name);
     }
     Some((parameters, signs))
-}
-
-/// The name of `for sign in (1, -1):`, `for s = [1 -1]`.
-fn sign_of_loop(line: &str) -> Option<String> {
-    let rest = line.strip_prefix("for ")?;
-    let (name, values) = rest.split_once(" in ").or_else(|| rest.split_once('='))?;
-    let plain: String = values.chars().filter(|c| !c.is_whitespace() && *c != '+').collect();
-    let plain = plain.trim_end_matches(':').trim_matches(['(', ')', '[', ']']).replace(".0", "");
-    let is_sign = matches!(plain.trim_end_matches(','), "1,-1" | "-1,1" | "1-1" | "-11");
-    is_sign.then(|| name.trim().to_string())
 }
 
 /// The parts between commas outside of brackets, without blanks around them.

@@ -11,6 +11,16 @@ pub(super) fn cleared(text: &mut [u8], part: Option<Range<usize>>) {
     part.iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
 }
 
+/// The name of `for sign in (1, -1):`, `for s = [1 -1]`.
+pub(super) fn sign_of_loop(line: &str) -> Option<String> {
+    let rest = line.strip_prefix("for ")?;
+    let (name, values) = rest.split_once(" in ").or_else(|| rest.split_once('='))?;
+    let plain: String = values.chars().filter(|c| !c.is_whitespace() && *c != '+').collect();
+    let plain = plain.trim_end_matches(':').trim_matches(['(', ')', '[', ']']).replace(".0", "");
+    let is_sign = matches!(plain.trim_end_matches(','), "1,-1" | "-1,1" | "1-1" | "-11");
+    is_sign.then(|| name.trim().to_string())
+}
+
 /// Blanks that say nothing left out.
 pub(super) fn squeezed(formula: &str) -> String {
     formula.chars().filter(|c| !c.is_whitespace()).collect()

@@ -105,6 +105,23 @@ fn a_point_that_words_call_an_origin() {
     let [right, wrong] = both(text, None, "d_2", ["-L_1^2", "+L_1^2"]);
     assert!(matches!(right[..], [Standing::Equal | Standing::Conditional]), "{right:?}");
     assert_eq!(wrong, WRONG);
+    // In other words, and in other frames.
+    let told = "For given $w=(w_x,w_y)$, the origin of frame 3, and";
+    for (words, is_told) in [
+        ("Let $w=(w_x,w_y)$ be the origin of frame $\\{3\\}$, and", true),
+        ("The origin of frame $\\{3\\}$ is $w=(w_x,w_y)$, and", true),
+        ("For given $w=(w_x,w_y)$ (the origin of frame 3) and", true),
+        ("For given $w=(w_x,w_y)$, the origin of frame 3 seen from the base, and", true),
+        ("For given $w=(w_x,w_y)$, the origin of frame 3 seen from frame 1, and", false),
+        ("In frame 1 let $w=(w_x,w_y)$ be the origin of frame 3, and", false),
+        ("For given ${}^1w=(w_x,w_y)$, the origin of frame 3, and", false),
+    ] {
+        let text = text.replace(told, words);
+        let found = all(&read(&text, Format::Markdown, None), "d_2");
+        let is_judged = found.iter().any(|s| matches!(s, Standing::Equal | Standing::Conditional));
+        assert_eq!(is_judged, is_told, "{words}: {found:?}");
+        assert!(!found.contains(&Standing::Wrong), "{words}");
+    }
     // A point of which nothing is told is none of the arm's.
     let text = text.replace(", the origin of frame 3,", "");
     let found = all(&read(&text, Format::Markdown, None), "d_2");
@@ -118,4 +135,16 @@ fn spanish_sines_and_curly_thetas() {
                 With $l_1=0.5$ m, $l_2=0.4$ m, $\\vartheta_1=30^\\circ$, $\\vartheta_2=60^\\circ$: $p_y=0.650$ m.\n";
     assert_eq!(both(text, None, "y", ["+l_2", "-l_2"]), [EQUAL, WRONG]);
     assert_eq!(both(text, None, "p_y", ["0.650", "0.550"]), [EQUAL, WRONG]);
+}
+
+/// Brackets in brackets are matched once, not once for each.
+#[test]
+fn deep_brackets_take_no_time() {
+    let before = std::time::Instant::now();
+    for (word, name, language) in [("// Math.\n", "f(", Dialect::C), ("using X\n", "a[", Dialect::Matlab)] {
+        let options = CheckOptions { language: Some(language), ..CheckOptions::default() };
+        let text = format!("{word}{}", name.repeat(80_000));
+        assert!(check(&text, Format::Plain, None, &options).is_err());
+    }
+    assert!(before.elapsed().as_secs() < 30, "{:?}", before.elapsed());
 }

@@ -129,7 +129,11 @@ fn a_slide_with_the_other_sign_is_wrong() {
 
 /// The marks of a document for items that say what they ask for.
 fn marks(text: &str, items: Vec<Item>) -> Vec<Mark> {
-    let text = format!("{TABLE}{text}");
+    marks_of(TABLE, text, items)
+}
+
+fn marks_of(table: &str, text: &str, items: Vec<Item>) -> Vec<Mark> {
+    let text = format!("{table}{text}");
     let mut checked = check(&text, Format::Markdown, None, &CheckOptions::default()).expect("a table");
     let rubric = Rubric { title: None, conditional: 0.5, carried: 0.75, items };
     rubric.answer(&text, Format::Markdown, &mut checked);
@@ -212,6 +216,10 @@ fn configurations_are_marked_however_they_are_told() {
         "| θ1 (rad) | θ2 (rad) |\n|-|-|\n| 1.3963 | -1.0472 |\n| 0.5236 | 1.0472 |",
         "$q_1 = \\begin{pmatrix} 30^\\circ \\\\ 60^\\circ \\end{pmatrix}$, \
          $q_2 = \\begin{pmatrix} 80^\\circ \\\\ -60^\\circ \\end{pmatrix}$",
+        "θ₁ = 30°, θ₂ = 60°\n\nθ₁ = 80°, θ₂ = −60°",
+        "$\\theta_1^{(1)} = 30^\\circ$, $\\theta_2^{(1)} = 60^\\circ$\n\n$\\theta_1^{(2)} = 80^\\circ$, $\\theta_2^{(2)} = -60^\\circ$",
+        "q1a = 30°, q2a = 60°; q1b = 80°, q2b = -60°",
+        "q2 = acos(0.5) = 60°, q1 = 70° - 40° = 30°\n\nq2 = -acos(0.5) = -60°, q1 = 40° + 40° = 80°",
         "1. $\\theta_1 = \\pi/6$, $\\theta_2 = \\frac{\\pi}{3}$\n2. $\\theta_1 = 80°$, $\\theta_2 = -60°$",
     ] {
         assert_eq!(points(text), all, "{text}");
@@ -222,11 +230,63 @@ fn configurations_are_marked_however_they_are_told() {
     let wrong = marks("θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = 60°", vec![configurations()]).remove(0);
     assert_eq!((wrong.points, wrong.slips.len()), (6.0, 1));
     assert_eq!((wrong.slips[0].1, wrong.slips[0].2.as_str()), (ValueSlip::Sign, "(80°, -60°)"));
+    // What may be meant otherwise is nothing wrong: a list without a name, the goal, a sentence.
+    for more in
+        ["(0.5, 0.25)", "[0.8660, 0.5000]", "With both joints at zero, q = (0°, 0°), the arm is stretched."]
+    {
+        assert_eq!(points(&format!("θ1 = 30°, θ2 = 60°\n\nθ1 = 80°, θ2 = -60°\n\n{more}")), all, "{more}");
+        let one = points(&format!("θ1 = 30°, θ2 = 60°\n\n{more}"));
+        assert_eq!(one, (6.0, 6.0, Some([1, 2])), "{more}");
+    }
+    // Digits that are not there are no reason for full points, nor are radians beyond a turn.
+    let rounded = points("θ1 = 30°, θ2 = 60°\n\nθ1 = 1, θ2 = -1");
+    assert_eq!(rounded, (6.0, 6.0, Some([1, 2])));
+    assert_eq!(points("θ1 = 30°, θ2 = 60°\n\nθ1 = 20, θ2 = 18").0, 6.0);
     // Where none is right they may be no answer: by hand.
     for text in ["θ1 = 31°, θ2 = 61.5°", "q = (31°, 61.5°)", "1. (31°, 61.5°)"] {
         let none = points(text);
         assert!(none.0 == 0.0 && none.1 > 0.0, "{text}: {none:?}");
     }
+}
+
+/// A configuration counts for the pose that it is told for.
+#[test]
+fn configurations_belong_to_their_poses() {
+    let mut item = configurations();
+    item.configurations[1].q = vec![0.2, 0.4];
+    let table = TABLE.replace("a1", "0.4").replace("a2", "0.3");
+    let points = |text: &str| {
+        let mark = marks_of(&table, text, vec![item.clone()]).remove(0);
+        (mark.points, mark.open)
+    };
+    let [first, second] = ["θ1 = 30°, θ2 = 60°", "θ1 = 0.2000, θ2 = 0.4000"];
+    for (text, expected) in [
+        (format!("## Position 1\n\n{first}\n\n## Position 2\n\n{second}"), (12.0, 0.0)),
+        (format!("## Position 1\n\n{second}\n\n## Position 2\n\n{first}"), (0.0, 12.0)),
+        (format!("{first}\n\n{second}"), (12.0, 0.0)),
+        (format!("{second}\n\n{first}"), (0.0, 12.0)),
+    ] {
+        assert_eq!(points(&text), expected, "{text}");
+    }
+}
+
+/// Links that are the same matrix under each name, and one that is told several times.
+#[test]
+fn a_matrix_counts_once() {
+    let link = |k: usize| {
+        format!(
+            "\\begin{{pmatrix}} C_{k} & -S_{k} & 0 & a_{k} C_{k} \\\\ S_{k} & C_{k} & 0 & a_{k} S_{k} \\\\ 0 & 0 & 1 & 0 \\\\ 0 & 0 & 0 & 1 \\end{{pmatrix}}"
+        )
+    };
+    let points = |names: [&str; 2], of: [usize; 2]| {
+        let text = format!("$${} = {}$$\n\n$${} = {}$$", names[0], link(of[0]), names[1], link(of[1]));
+        marks(&text, vec![item(Subject::Links, None, 12)]).remove(0).points
+    };
+    let names = ["T_{01}", "T_{12}"];
+    assert_eq!(points(names, [1, 2]), 12.0);
+    assert_eq!(points([names[0], names[0]], [1, 1]), 6.0);
+    assert!(points(names, [1, 1]) < 11.0);
+    assert!(points(names, [2, 1]) < 11.0);
 }
 
 #[test]
@@ -246,6 +306,15 @@ fn singular_values_are_marked_however_they_are_told() {
     ] {
         let found = marks(text, asked()).remove(0);
         assert_eq!((found.points, found.open), (points, 0.0), "{text}: {found:?}");
+    }
+    // What is denied, or stands beside others, is marked by hand.
+    for text in [
+        "The arm is never singular at θ2 = 0 and it is regular at θ2 = π.",
+        "For θ2 = 0, π the determinant is not zero.",
+        "Le bras n'est pas singulier pour θ2 = 0, π.",
+    ] {
+        let found = marks(text, asked()).remove(0);
+        assert_eq!((found.points, found.open), (0.0, 12.0), "{text}: {found:?}");
     }
     let determinant = || vec![item(Subject::Determinant, None, 1)];
     for name in ["det J", "|J|", "\\det J"] {

@@ -148,3 +148,86 @@ fn functions_of_a_part_of_the_joints() {
     let found = check(&all, Format::Plain, None, &options).unwrap();
     assert!(found.claims.iter().any(|c| c.standing() == Standing::Wrong), "{:?}", found.claims);
 }
+
+const PLANAR: &str = "// DH (standard): theta, d, a, alpha\n//   joint 1: theta = q1, d = 0, a = L1, alpha = 0\n\
+                       //   joint 2: theta = q2, d = 0, a = L2, alpha = 0\n";
+
+/// What is said of a program about the planar arm.
+fn planar(body: &str, language: Dialect) -> Vec<(String, Standing)> {
+    let options = CheckOptions { language: Some(language), ..CheckOptions::default() };
+    let head = if language == Dialect::C { PLANAR.to_string() } else { PLANAR.replace("//", "#") };
+    let found = check(&format!("{head}{body}"), Format::Plain, None, &options).expect("a table");
+    found.claims.iter().map(|c| (c.name.clone(), c.standing())).collect()
+}
+
+/// What a loop that is not read changes is not what it was before.
+#[test]
+fn loops_that_are_not_read_leave_nothing_to_judge() {
+    let body = |turns: &str| {
+        format!(
+            "void fk(double q1, double q2, double L1, double L2, double *px, double *py)\n{{\n  double x = 0, y = 0, phi = 0;\n\
+             \x20 int i = 0;\n{turns}\n  *px = x;\n  *py = y;\n}}\n"
+        )
+    };
+    for turns in [
+        "  while (i < 2) { phi += i ? q2 : q1; x += (i ? L2 : L1) * cos(phi); y += (i ? L2 : L1) * sin(phi); i++; }",
+        "  for (auto p : {q1, q2}) { phi += p; x += L1 * cos(phi); y += L1 * sin(phi); }",
+        "  auto add = [&](double q, double l) { phi += q; x += l * cos(phi); y += l * sin(phi); };\n  add(q1, L1);\n  add(q2, L2);",
+    ] {
+        assert_eq!(planar(&body(turns), Dialect::C), [], "{turns}");
+    }
+    let python = "def fk(q1, q2, L1, L2):\n    x, y, phi = 0, 0, 0\n    todo = [(q1, L1), (q2, L2)]\n    while todo:\n        q, l = todo.pop(0)\n\
+                  \x20       phi += q\n        x += l * cos(phi)\n        y += l * sin(phi)\n    return x, y\n";
+    assert_eq!(planar(python, Dialect::Python), []);
+}
+
+/// Each function has its joints in degrees or in radians for itself.
+#[test]
+fn one_function_in_degrees_leaves_the_others_in_radians() {
+    let body = "#define RAD (M_PI / 180.0)\nvoid forward(double q1, double q2, double *x, double *y)\n{\n  *x = L1 * cos(q1) + L2 * cos(q1 + q2);\n\
+                \x20 *y = L1 * sin(q1) - L2 * sin(q1 + q2);\n}\nvoid degrees(double q1, double q2, double *x, double *y)\n{\n\
+                \x20 forward(q1 * RAD, q2 * RAD, x, y);\n}\n";
+    let found = planar(body, Dialect::C);
+    assert_eq!(found, [("x".into(), Standing::Equal), ("y".into(), Standing::Wrong)]);
+}
+
+/// Inverse formulas in degrees hold if their factors do.
+#[test]
+fn a_missing_factor_of_degrees_is_not_proved() {
+    let body = |last: &str| {
+        format!(
+            "RAD = pi / 180\nDEG = 180 / pi\n\ndef forward(q1, q2):\n    x = L1 * cos(q1 * RAD) + L2 * cos((q1 + q2) * RAD)\n    return x\n\n\
+             def inverse(x, y):\n    c = (x*x + y*y - L1*L1 - L2*L2) / (2*L1*L2)\n    q2 = arccos(c) * DEG\n\
+             \x20   q1 = arctan2(y, x) * DEG - arctan2(L2*sin(q2*RAD), L1 + L2*cos(q2*RAD)){last}\n    return q1, q2\n"
+        )
+    };
+    let standing = |last: &str| {
+        let found = planar(&body(last), Dialect::Python);
+        found.into_iter().find(|f| f.0 == "q1").map(|f| f.1)
+    };
+    assert_eq!(standing(" * DEG"), Some(Standing::Equal));
+    for last in ["", " * DEG * DEG", " * RAD"] {
+        assert_eq!(standing(last), None, "{last}");
+    }
+}
+
+/// A matrix of Eigen has the sizes with which it is made.
+#[test]
+fn sizes_of_matrices_are_those_of_their_declaration() {
+    let head = format!(
+        "{PLANAR}//   joint 3: theta = q3, d = 0, a = L3, alpha = 0\nconst double L1 = 0.4, L2 = 0.3, L3 = 0.2;\n"
+    );
+    let standing = |declared: &str| {
+        let body = format!(
+            "MatrixXd jacobian(double q1, double q2, double q3)\n{{\n  double s1 = sin(q1), s12 = sin(q1 + q2), s123 = sin(q1 + q2 + q3);\n\
+             \x20 double c1 = cos(q1), c12 = cos(q1 + q2), c123 = cos(q1 + q2 + q3);\n  {declared}\n\
+             \x20 J << -L1*s1 - L2*s12 - L3*s123, -L2*s12 - L3*s123, -L3*s123,\n\
+             \x20       L1*c1 + L2*c12 + L3*c123, L2*c12 + L3*c123, L3*c123;\n  return J;\n}}\n"
+        );
+        let options = CheckOptions { language: Some(Dialect::C), ..CheckOptions::default() };
+        let found = check(&format!("{head}{body}"), Format::Plain, None, &options).expect("a table");
+        found.claims.iter().map(|c| c.standing()).collect::<Vec<_>>()
+    };
+    assert_eq!(standing("MatrixXd J(2, 3);"), [Standing::Equal]);
+    assert_eq!(standing("MatrixXd J;"), []);
+}

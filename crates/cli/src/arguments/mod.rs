@@ -291,8 +291,8 @@ pub struct CheckArguments {
     /// The robot, or a task: a rubric that names its robot; may be left out where the document holds its table
     #[command(flatten)]
     pub robot: RobotArguments,
-    /// The document (.md, .tex, .typ, .txt, .toml, .py, .m); several, or a folder, are those of a class. Or a recording of joints and poses
-    /// (.csv, .tsv, .jsonl, .npy, .npz, .parquet, the folder of a data set of LeRobot)
+    /// The document (.md, .tex, .typ, .txt, .toml, .py, .m, .c, .cpp, .js, .jl); several, or a folder, are those of a class. Or a recording
+    /// of joints and poses (.csv, .tsv, .jsonl, .npy, .npz, .parquet, the folder of a data set of LeRobot)
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// What the left side of the first statement means: `T06`, `A3`, `R03`, `"T06 3,4"` for an entry

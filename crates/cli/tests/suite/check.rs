@@ -73,8 +73,17 @@ fn points_for_a_teacher() {
     let line = |name: &str| sheet.lines().find(|l| l.contains(name)).unwrap_or_default().to_string();
     assert!(line("position").contains("2") && line("position").contains("1 of 2 right, not x"), "{sheet}");
     assert!(line("all or nothing").contains("0"), "{sheet}");
-    std::fs::write(&rubric, "[[items]]\nclaims = 3\n").expect("a rubric");
-    assert_eq!(run(&["check", &file.to_string_lossy(), "--rubric", &rubric.to_string_lossy()]).0, 3);
+    // What the arm cannot have, and what is no value, is said.
+    for wrong in [
+        "claims = 3",
+        "claims = [\"q*\"]\npoints = 1\nzeros = [{ joint = 7, value = \"0\" }]",
+        "claims = [\"q*\"]\npoints = 1\nzeros = [{ joint = 2, value = \"180°x\" }]",
+        "claims = [\"q*\"]\npoints = 1\nconfigurations = [{ q = [0.1, 0.2, 0.3] }]",
+    ] {
+        std::fs::write(&rubric, format!("[[items]]\n{wrong}\n")).expect("a rubric");
+        let found = run(&["check", &file.to_string_lossy(), "--rubric", &rubric.to_string_lossy()]);
+        assert_eq!(found.0, 3, "{wrong}: {found:?}");
+    }
 }
 
 #[test]

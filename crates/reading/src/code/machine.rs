@@ -6,7 +6,7 @@ use super::place::{is_aliased, shallow};
 use super::python::is_main;
 use super::report;
 use super::scalar::{Budget, Read, Scalar, Stop, refuse, refuse_hint};
-use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind, SuffixKind, changed};
+use super::tree::{Definition, Kind, Node, Op, Span, Statement, StatementKind, SuffixKind, changed, given};
 use super::value::{Closure, Object};
 use super::{Assigned, MAX_DEPTH, MAX_REFUSALS, MAX_STATEMENTS, MAX_TURNS, Returned, Shown};
 use denavit_symbolic::Expr;
@@ -197,10 +197,15 @@ impl<'a> Machine<'a> {
 
     /// Marks names as not known. An array that was only set aside for what is not read is none of the program's results.
     pub fn forget(&mut self, names: &[&'a str]) {
+        self.lose(names, Assigned::is_set_aside);
+    }
+
+    /// Marks names as not known; what they were before is none of the program's results if it is so.
+    fn lose(&mut self, names: &[&'a str], is_none: impl Fn(&Assigned) -> bool) {
         for name in names {
             let before = self.frame().slots.insert(name, Slot::default());
             if let Some(record) = before.and_then(|slot| self.records.get_mut(slot.record?))
-                && record.as_ref().is_some_and(Assigned::is_set_aside)
+                && record.as_ref().is_some_and(&is_none)
             {
                 *record = None;
             }
@@ -218,8 +223,11 @@ impl<'a> Machine<'a> {
                     if let Err(stop) = self.budget.charge(walked, &statement.span) {
                         self.refuse(stop);
                     }
+                    let statement = std::slice::from_ref(statement);
+                    // What was to get another value has not the one of before.
+                    self.lose(&given(statement), |_| true);
                     let mut names = vec![];
-                    let leaves = changed(std::slice::from_ref(statement), &mut names);
+                    let leaves = changed(statement, &mut names);
                     self.forget(&names);
                     if leaves || self.budget.is_spent() {
                         return Flow::Lost;

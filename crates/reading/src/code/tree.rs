@@ -159,25 +159,37 @@ pub(super) enum StatementKind {
     Refused(ParseError, Vec<Statement>),
 }
 
-/// The names that statements give new values, and whether one of them leaves the function.
+/// The names that statements give new values, or may change, and whether one of them leaves the function.
 pub(super) fn changed<'a>(statements: &'a [Statement], names: &mut Vec<&'a str>) -> bool {
+    collected(statements, names, false)
+}
+
+/// The names on the left sides of statements.
+pub(super) fn given<'a>(statements: &'a [Statement]) -> Vec<&'a str> {
+    let mut names = vec![];
+    collected(statements, &mut names, true);
+    names
+}
+
+fn collected<'a>(statements: &'a [Statement], names: &mut Vec<&'a str>, is_left: bool) -> bool {
     let mut leaves = false;
     for statement in statements {
         match &statement.kind {
             StatementKind::Assign(targets, _) => targets.iter().for_each(|t| targeted(t, names)),
             StatementKind::Augment(target, ..) => targeted(target, names),
+            StatementKind::Show(_) | StatementKind::Define(_) if is_left => {}
             StatementKind::Show(node) => receiver(node, names),
             StatementKind::For(target, _, body) => {
                 targeted(target, names);
-                leaves |= changed(body, names);
+                leaves |= collected(body, names, is_left);
             }
             StatementKind::If(arms, other) => {
                 for (_, body) in arms {
-                    leaves |= changed(body, names);
+                    leaves |= collected(body, names, is_left);
                 }
-                leaves |= changed(other, names);
+                leaves |= collected(other, names, is_left);
             }
-            StatementKind::Refused(_, body) => leaves |= changed(body, names),
+            StatementKind::Refused(_, body) => leaves |= collected(body, names, is_left),
             StatementKind::Define(d) => names.push(&d.name),
             StatementKind::Declare(declared) => names.extend(declared.iter().map(|d| d.0.as_str())),
             StatementKind::Return(_) => leaves = true,

@@ -11,7 +11,7 @@ use anstyle::Style;
 use denavit::description::{line_column, read_toml, render};
 use denavit::symbolic::scoped;
 use denavit_check::marking::{Rubric, Sheet};
-use denavit_check::{CheckOptions, Checked, Finding, Tally, check};
+use denavit_check::{CheckOptions, Checked, Finding, Skipped, Tally, check};
 use denavit_reading::document::Format;
 use denavit_wire::class as wire;
 use std::collections::{BTreeMap, BTreeSet};
@@ -127,7 +127,8 @@ pub fn run(arguments: &CheckArguments, task: Option<Task>, files: &[PathBuf]) ->
     if arguments.certificate.is_some() || arguments.claim.is_some() {
         return Err(Failure::Usage("--certificate and --claim are for one document".into()));
     }
-    let (_, robot) = load::robot_file(&arguments.robot)?;
+    let (arm, robot) = load::robot_file(&arguments.robot)?;
+    task.as_ref().map_or(Ok(()), |t| t.fits(arm.variables().len()))?;
     let options = Options {
         robot,
         tolerance: arguments.tolerance,
@@ -285,6 +286,10 @@ fn by_hand(document: &Document) -> Vec<(usize, String, String)> {
             };
             found.push((document.line(entry.span.start), short(&entry.span), why));
         }
+    }
+    for answered in document.checked.answered.iter().filter(|a| a.by_hand && a.counts > 0) {
+        let why = words().skipped(&Skipped::SaysNothing);
+        found.push((document.line(answered.span.start), short(&answered.span), why));
     }
     for line in &document.checked.unjudged {
         found.push((document.line(line.span.start), short(&line.span), words().skipped(&line.why)));

@@ -152,6 +152,9 @@ fn one(arguments: &CheckArguments, task: Option<&Task>) -> Result<(), Failure> {
     let mut checked = check(&text, format, robot.as_ref(), &options)
         .map_err(|notes| Failure::Input(render(&findings(notes.iter()), &name, &text)))?;
     if let Some(task) = task {
+        if let Some(robot) = checked.robots.first() {
+            task.fits(robot.variables().len())?;
+        }
         task.rubric.answer(&text, format, &mut checked);
     }
     let document = Document { name: &name, text: &text, checked: &checked };

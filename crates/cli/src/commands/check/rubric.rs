@@ -23,6 +23,8 @@ use crate::failure::Failure;
 use denavit::description::line_column;
 use denavit_check::Answer;
 use denavit_check::marking::{Asked, Form, Item, Rubric, Subject};
+use denavit_symbolic::parse::parse;
+use denavit_symbolic::vocabulary::Vocabulary;
 
 /// The keys of the file.
 const KEYS: [&str; 5] = ["title", "robot", "conditional", "carried", "items"];
@@ -32,6 +34,47 @@ pub struct Task {
     pub rubric: Rubric,
     /// A name of the catalogue, or a file beside that of the task.
     pub robot: Option<String>,
+    /// The name of the file.
+    name: String,
+}
+
+impl Task {
+    /// Whether all that the items ask for is of an arm with so many joints.
+    ///
+    /// # Errors
+    /// All that is not.
+    pub fn fits(&self, joints: usize) -> Result<(), Failure> {
+        let mut errors = vec![];
+        for (n, item) in (1..).zip(&self.rubric.items) {
+            for (k, (joint, _)) in (1..).zip(&item.zeros).filter(|(_, z)| z.0 > joints) {
+                errors.push(format!(
+                    "`zeros` of item {n}: number {k} is of joint {joint}, the robot has {joints}"
+                ));
+            }
+            for (k, asked) in (1..).zip(&item.configurations).filter(|(_, a)| a.q.len() != joints) {
+                let count = asked.q.len();
+                let values = if count == 1 { "1 value".into() } else { format!("{count} values") };
+                errors.push(format!(
+                    "`configurations` of item {n}: number {k} has {values}, the robot has {joints} joints"
+                ));
+            }
+        }
+        refused(&self.name, &errors)
+    }
+}
+
+/// The errors of a file, if there are some.
+fn refused(name: &str, errors: &[String]) -> Result<(), Failure> {
+    let lines: Vec<String> = errors.iter().map(|e| format!("{name}: error: {e}")).collect();
+    if lines.is_empty() { Ok(()) } else { Err(Failure::Input(lines.join("\n"))) }
+}
+
+/// What of a list is no formula: its numbers, from 1, and what is there. Values of joints have no letters.
+fn unread<'a>(values: impl Iterator<Item = &'a str>, has_letters: bool) -> Vec<(usize, &'a str)> {
+    let is_formula = |text: &str| {
+        parse(text, &Vocabulary::new().open(true)).is_ok_and(|e| has_letters || e.symbols().is_empty())
+    };
+    (1..).zip(values).filter(|(_, text)| !is_formula(text)).collect()
 }
 
 /// A rubric as a file that [`read`] reads, of a task with this robot.
@@ -187,19 +230,23 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
             told("zeros", "are a `joint`, from 1, and its `value`, a formula");
             vec![]
         });
+        for (k, value) in unread(zeros.iter().map(|z| z.1.as_str()), false) {
+            errors.push(format!("`zeros` of item {n}: number {k}, `{value}`, is no value"));
+        }
+        let answers = answers(get("answers")).unwrap_or_else(|| {
+            errors.push(format!("the answers of item {n} need `names` and a `value`, a formula"));
+            vec![]
+        });
+        for (k, value) in unread(answers.iter().map(|a| a.value.as_str()), true) {
+            errors.push(format!("`answers` of item {n}: number {k}, `{value}`, is no formula"));
+        }
         match (claims, get("points").and_then(&number)) {
             (Some(claims), Some(points)) if points >= 0.0 => items.push(Item {
                 name: get("name").and_then(|v| v.as_str()).map_or_else(|| claims.join(", "), str::to_string),
                 claims,
                 points,
                 whole: get("whole").and_then(toml::Value::as_bool).unwrap_or(false),
-                answers: match answers(get("answers")) {
-                    Some(answers) => answers,
-                    None => {
-                        errors.push(format!("the answers of item {n} need `names` and a `value`, a formula"));
-                        vec![]
-                    }
-                },
+                answers,
                 formulas: get("formulas").and_then(toml::Value::as_integer).map_or(0, |n| n.max(0) as usize),
                 about,
                 form: form.first().copied(),
@@ -212,11 +259,8 @@ pub fn read(name: &str, text: &str) -> Result<Task, Failure> {
     if listed.is_empty() {
         errors.push("there are no [[items]]".into());
     }
-    if errors.is_empty() {
-        let words = |key: &str| file.get(key).and_then(|v| v.as_str()).map(str::to_string);
-        let rubric = Rubric { title: words("title"), conditional, carried, items };
-        return Ok(Task { rubric, robot: words("robot") });
-    }
-    let lines = errors.iter().map(|e| format!("{name}: error: {e}"));
-    Err(Failure::Input(lines.collect::<Vec<_>>().join("\n")))
+    refused(name, &errors)?;
+    let words = |key: &str| file.get(key).and_then(|v| v.as_str()).map(str::to_string);
+    let rubric = Rubric { title: words("title"), conditional, carried, items };
+    Ok(Task { rubric, robot: words("robot"), name: name.to_string() })
 }

@@ -5,6 +5,9 @@ use crate::code::lexer::{Mark, Token};
 use denavit_symbolic::Rational;
 use std::collections::BTreeSet;
 
+/// So many tokens before an argument its call is looked for.
+const MAX_ARGUMENTS: usize = 200;
+
 impl Writer {
     /// `if (…) … else …`
     pub(super) fn branches(&mut self) {
@@ -130,15 +133,46 @@ impl Writer {
     /// A loop: what it changes is not known afterwards.
     pub(super) fn refused(&mut self) {
         let word = self.name(self.at).unwrap_or_default().to_string();
-        let bad = Mark::Bad(format!("`{word}` is not read"));
-        self.out.push(Token { mark: bad, ..self.tokens[self.at].clone() });
+        self.lost(format!("`{word}` is not read"));
+    }
+
+    /// A function inside of a statement, `std::for_each(…, [&](double a) { x += a; });`: what it changes is not known afterwards.
+    pub(super) fn inner_function(&mut self) -> bool {
+        let (mut depth, mut k) = (0_usize, self.at);
+        // Whether the brackets around are round.
+        let mut round = vec![];
+        let is_one = loop {
+            match self.op(k) {
+                _ if k >= self.tokens.len() => break false,
+                ";" if depth == 0 => break false,
+                // A statement of a block.
+                ";" if round.last() == Some(&false) => break true,
+                op @ ("(" | "{" | "[") => {
+                    depth += 1;
+                    round.push(op != "{");
+                }
+                ")" | "}" | "]" if depth == 0 => break false,
+                ")" | "}" | "]" => {
+                    depth -= 1;
+                    round.pop();
+                }
+                "+=" | "-=" | "*=" | "/=" if depth > 0 => break true,
+                _ => {}
+            }
+            k += 1;
+        };
+        if is_one {
+            self.lost("a function inside of a statement is not read".into());
+        }
+        is_one
+    }
+
+    fn lost(&mut self, message: String) {
+        self.out.push(Token { mark: Mark::Bad(message), ..self.tokens[self.at].clone() });
         self.put(Mark::Newline);
         let start = self.at;
         self.passed_over();
-        let changed: BTreeSet<String> = (start..self.at)
-            .filter(|&i| self.op(i + 1) == "=" || self.op(i + 1) == "[")
-            .filter_map(|i| self.name(i).map(str::to_string))
-            .collect();
+        let changed: BTreeSet<String> = (start..self.at).flat_map(|i| self.given_at(i, start)).collect();
         let end = self.at;
         self.at = start;
         for name in changed {
@@ -148,5 +182,55 @@ impl Writer {
             self.put(Mark::Newline);
         }
         self.at = end;
+    }
+
+    /// The names that get a value by what stands at a place, in statements from `start` on: on a left side, counted up, or handed to a
+    /// function that is called for that.
+    fn given_at(&self, at: usize, start: usize) -> Vec<String> {
+        const GIVES: [&str; 9] = ["=", "+=", "-=", "*=", "/=", "<<=", ">>=", "++", "--"];
+        let before = |k: usize| if k > start { self.op(k - 1) } else { ";" };
+        if self.op(at) == "]" && self.op(at + 1) == "=" {
+            // `[a, b] = …`
+            let open = (start..at).rev().find(|&k| self.op(k) == "[").filter(|&k| before(k) != "");
+            let inside = open.map_or(at..at, |open| open + 1..at);
+            return inside.filter_map(|k| self.name(k).map(str::to_string)).collect();
+        }
+        let Some(name) = self.name(at) else { return vec![] };
+        let mut names = vec![name.to_string()];
+        let mut k = at + 1;
+        loop {
+            match (self.op(k), self.name(k + 1)) {
+                ("[", _) => k = self.behind(k),
+                ("." | "->", Some(field)) => {
+                    names.extend([field.to_string(), self.field(name, field)]);
+                    k += 2;
+                }
+                _ => break,
+            }
+        }
+        let is_counted = matches!(before(at), "++" | "--");
+        // `&x`, and `mul(A, B, C);` as a statement.
+        let is_alone = matches!(self.op(k), "," | ")");
+        let is_place = before(at) == "&" && is_alone;
+        let is_handed = is_alone && matches!(before(at), "," | "(") && self.is_argument(start, at);
+        if GIVES.contains(&self.op(k)) || is_counted || is_place || is_handed { names } else { vec![] }
+    }
+
+    /// True for what stands in the brackets of a call that is a statement by itself.
+    fn is_argument(&self, start: usize, at: usize) -> bool {
+        let mut depth = 0_usize;
+        for i in (start + 1..at).rev().take(MAX_ARGUMENTS) {
+            match self.op(i) {
+                ")" | "]" | "}" => depth += 1,
+                "(" | "[" | "{" if depth > 0 => depth -= 1,
+                "(" => {
+                    let is_first = i < start + 2 || matches!(self.op(i - 2), ";" | "{" | "}" | ")");
+                    return is_first && self.name(i - 1).is_some() && self.op(self.behind(i)) == ";";
+                }
+                "[" | "{" => return false,
+                _ => {}
+            }
+        }
+        false
     }
 }

@@ -70,7 +70,7 @@ impl Writer {
         true
     }
 
-    /// Rows and columns by the type of the declaration above: `Matrix3d R`, `Matrix<double, 3, 4> J`, `Vector3d& q`.
+    /// Rows and columns by the declaration above: `Matrix3d R`, `Matrix<double, 3, 4> J`, `Vector3d& q`, `MatrixXd J(2, 3)`.
     fn declared_shape(&self, name: &str) -> Option<(usize, usize)> {
         let is_it = |i: &usize| self.name(*i) == Some(name) && *i > 0;
         (0..self.at).rev().filter(is_it).find_map(|i| {
@@ -85,6 +85,15 @@ impl Writer {
                 };
             }
             let kind = self.name(before)?.trim_end_matches(['d', 'f']);
+            if matches!(kind, "MatrixX" | "VectorX") {
+                // `MatrixXd J(2, 3);`: without sizes that can be read it has none.
+                let sizes = [i + 2, i + 4].map(|k| self.size_at(k));
+                return Some(match (self.op(i + 1), sizes, self.op(i + 3)) {
+                    ("(", [Some(rows), Some(columns)], ",") => (rows, columns),
+                    ("(", [Some(rows), _], ")") => (rows, 1),
+                    _ => (0, 0),
+                });
+            }
             let is_plain = |n: &str| n.len() == 1 && n.chars().all(|c| c.is_ascii_digit());
             let side = |stem: &str| kind.strip_prefix(stem).filter(|n| is_plain(n))?.parse::<usize>().ok();
             let square = side("Matrix").map(|n| (n, n));

@@ -294,6 +294,9 @@ impl Writer {
             Some("if") if self.op(self.at + 1) == "(" => return self.branches(),
             _ => {}
         }
+        if self.inner_function() {
+            return;
+        }
         // Types, and the casts and stars of what they declare.
         let is_return = self.name(self.at) == Some("return");
         let mut is_declared = false;
