@@ -6,12 +6,11 @@ mod failure;
 mod load;
 mod terminal;
 
-use arguments::{Arguments, Command};
-use clap::Parser;
+use arguments::Command;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = arguments::arguments();
     if arguments.quiet {
         terminal::be_quiet();
     }

@@ -7,7 +7,7 @@ use super::model::{ALONG, COUPLED, Coordinates, Model, Numbers, Rotor, moving_ro
 use super::points::jacobians;
 use super::quantity::{Quantity, STYLES};
 use super::statements::{Read, statements};
-use super::told::{Told, told};
+use super::told::{Told, as_told, told};
 use super::vote::{Bounds, Candidates, Reading, Symbols, Test, Vote, Voter};
 use super::words::{Role, length_of, names, role, words};
 use crate::facts::{Motion, Spoken};
@@ -18,8 +18,8 @@ use denavit_symbolic::{Expr, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// Arms with more joints are not judged: their formulas are no ones that people print.
-const MAX_JOINTS: usize = 4;
+/// Arms with more rows that move are not judged: their formulas are no ones that people print.
+const MAX_ROWS: usize = 4;
 
 /// A way to read a document's dynamics.
 pub(super) struct Attempt {
@@ -106,7 +106,7 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
     let d = &subject.description;
     let rows = moving_rows(d)?;
     let n = rows.len();
-    if n > MAX_JOINTS {
+    if n > MAX_ROWS {
         return None;
     }
     let sources = all.iter().map(|s| text.get(s.span.clone()).unwrap_or_default());
@@ -124,6 +124,18 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
     let gravity = symbols.gravity.map(Expr::from);
     let told = told(text);
     let bounds = Rc::new(Bounds::default());
+    let follows = |k: usize| d.rows[rows[k]].variable.is_none();
+    let driven = d.variables().len();
+    // Whose rotor turns with a row that follows others is anybody's guess.
+    let is_of_drive = |w: &String| matches!(role(w, n), Some(Role::Rotor(_) | Role::Motor(_)));
+    if driven < n && mentioned.iter().any(is_of_drive) {
+        return None;
+    }
+    // Where one stands before others, their bodies may have the numbers of their joints.
+    let is_last = (driven..n).all(follows);
+    if !is_last && !d.has_masses() {
+        bounds.is_cut.set(true);
+    }
     let own = subject.vocabulary();
     let lengths = ['l', 'L', 'a', 'd', 'r'].into_iter().filter(|letter| {
         let named = |k: usize| format!("{letter}{}", k + 1);
@@ -155,6 +167,7 @@ pub(super) fn best(text: &str, subject: &Subject, all: &[Statement], motion: &Mo
     let variables = d.variables();
     let is_planar = n > 1
         && variables.iter().all(|v| v.kind == JointKind::Revolute)
+        && is_last
         && d.rows.iter().skip(usize::from(!d.convention.begins_with_joint())).all(|r| r.alpha.is_zero());
     let coordinates: &[Coordinates] = match is_planar {
         true => &[Coordinates::Joints, Coordinates::Absolute, Coordinates::AbsoluteWithTorques],
@@ -344,32 +357,6 @@ fn spoken(told: &Told, roles: &BTreeMap<Symbol, Role>) -> Vec<Spoken> {
 
 fn has_inertias(roles: &BTreeMap<Symbol, Role>) -> bool {
     roles.values().any(|r| matches!(r, Role::Inertia(_) | Role::About(..) | Role::Ten(..)))
-}
-
-/// What names stand for as words say it: of other links than their numbers say, and inertias that no formula has.
-fn as_told(roles: &BTreeMap<Symbol, Role>, told: &Told, n: usize) -> BTreeMap<Symbol, Role> {
-    let mut all = roles.clone();
-    for (name, &link) in told.links.links.iter().filter(|(_, link)| **link < n) {
-        if let Some(role) = all.get_mut(&Symbol::new(name)) {
-            *role = match *role {
-                Role::Length(Some(_)) => Role::Length(Some(link)),
-                Role::Inertia(Some(_)) => Role::Inertia(Some(link)),
-                Role::About(_, axis) => Role::About(link, axis),
-                other => other,
-            };
-        }
-    }
-    for (name, link) in &told.links.inertias {
-        let links = link.map_or(0..n, |k| k..(k + 1).min(n));
-        all.extend(links.map(|k| (numbered(name, k), Role::Inertia(Some(k)))));
-    }
-    all
-}
-
-/// `I_i` of link 1, from 0, is `I_2`.
-fn numbered(name: &str, link: usize) -> Symbol {
-    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, 'i' | 'j' | 'k'));
-    Symbol::new(&format!("{letters}{}", link + 1))
 }
 
 /// The numbers of a link that the robot's own file gives.

@@ -83,7 +83,7 @@ impl Asked<'_, '_> {
             return None;
         }
         let state = &self.author.model.state;
-        let n = state.q.len();
+        let (n, bodies) = (state.q.len(), self.author.model.bodies());
         let sum = |parts: Vec<Found>| {
             let value = parts.iter().fold(Expr::int(0), |all, p| all + p.0);
             (value, parts.iter().filter_map(|p| p.1).min())
@@ -145,11 +145,11 @@ impl Asked<'_, '_> {
                 (derivative(potential, state.q[i].into())?, by)
             }
             Quantity::Kinetic(None) => {
-                let parts = (0..n).map(|k| self.of(Quantity::Kinetic(Some(k)), depth));
+                let parts = (0..bodies).map(|k| self.of(Quantity::Kinetic(Some(k)), depth));
                 sum(parts.collect::<Option<Vec<Found>>>()?)
             }
             Quantity::Potential(None) => {
-                let parts = (0..n).map(|k| self.of(Quantity::Potential(Some(k)), depth));
+                let parts = (0..bodies).map(|k| self.of(Quantity::Potential(Some(k)), depth));
                 sum(parts.collect::<Option<Vec<Found>>>()?)
             }
             Quantity::Lagrangian => {

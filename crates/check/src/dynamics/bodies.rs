@@ -2,10 +2,10 @@
 //! document has for them. The first are the more usual ones.
 
 use super::described::{At, Shape, Start};
-use super::model::{Numbers, Rotor, numbers};
+use super::model::{Numbers, Rotor, motion, numbers};
 use super::told::{Point, Told};
 use super::words::Role;
-use denavit::description::{Description, JointKind};
+use denavit::description::{Description, JointKind, Row};
 use denavit::geometry::{Body, Transform, Vector};
 use denavit_symbolic::{Expr, Rational, Symbol};
 use std::cell::{Cell, RefCell};
@@ -59,7 +59,8 @@ fn points(d: &Description, row: usize) -> Points {
     let (o, one) = (Expr::int(0), Expr::int(1));
     let origin = Vector([o; 3]);
     let r = &d.rows[row];
-    let is_slide = r.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+    let is_slide = motion(d, r) == Some(JointKind::Prismatic);
+    let is_still = |r: &Row| motion(d, r).is_none();
     let (mut joints, mut ends, axis);
     if d.convention.begins_with_joint() {
         let (s, c) = r.alpha.sin_cos();
@@ -71,10 +72,10 @@ fn points(d: &Description, row: usize) -> Points {
             joints.insert(0, normal - axis.scale(r.d));
         }
         let mut x = Transform::identity();
-        for next in d.rows[row + 1..].iter().take_while(|r| r.variable.is_none()) {
+        for next in d.rows[row + 1..].iter().take_while(|r| is_still(r)) {
             x = x * link(d, next);
         }
-        if row + 1 == d.rows.len() || d.rows[row + 1..].iter().all(|r| r.variable.is_none()) {
+        if row + 1 == d.rows.len() || d.rows[row + 1..].iter().all(is_still) {
             x = x * d.tool;
         }
         ends.insert(0, x.translation);
@@ -89,7 +90,7 @@ fn points(d: &Description, row: usize) -> Points {
             Some(next) => {
                 let normal = Vector([next.a, o, o]);
                 let (s, c) = next.alpha.sin_cos();
-                let slides = next.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+                let slides = motion(d, next) == Some(JointKind::Prismatic);
                 if !slides && !next.d.is_zero() {
                     ends.push(normal + Vector([o, -s, c]).scale(next.d));
                 }
@@ -104,7 +105,7 @@ fn points(d: &Description, row: usize) -> Points {
 }
 
 /// The transform of a row that does not move.
-fn link(d: &Description, row: &denavit::description::Row) -> Transform<Expr> {
+fn link(d: &Description, row: &Row) -> Transform<Expr> {
     let screw =
         |x: Transform<Expr>, z: Transform<Expr>| if d.convention.begins_with_joint() { z * x } else { x * z };
     let turn = |axis, angle| Transform::rotation_about(axis, angle);
@@ -263,7 +264,8 @@ pub(super) fn bodies(
     }
     let points = points(d, row);
     let loads: Vec<Expr> = if is_last { of(&|r| r == Role::Payload) } else { vec![] };
-    let is_turning = d.rows[row].variable.is_some_and(|v| v.kind == JointKind::Revolute);
+    let is_turning = motion(d, &d.rows[row]) == Some(JointKind::Revolute);
+    let is_driven = d.rows[row].variable.is_some();
     let mut turned: Vec<Rotor> = vec![];
     for (&rotor, &n) in rotors.iter().flat_map(|r| gears.iter().map(move |n| (r, n))) {
         turned.push(Rotor::felt(n.powi(2) * rotor));
@@ -287,7 +289,8 @@ pub(super) fn bodies(
     let mut ways: Vec<(Rotor, Vec<Expr>)> = turned.iter().map(|r| (*r, inertias.clone())).collect();
     ways.push((none, inertias.clone()));
     // What words call the inertias of links are no rotors'.
-    if rotors.is_empty() && told.links.inertias.is_empty() && told.inertia != Some(Point::Centre) {
+    if is_driven && rotors.is_empty() && told.links.inertias.is_empty() && told.inertia != Some(Point::Centre)
+    {
         for (at, &rotor) in inertias.iter().enumerate() {
             let others = inertias.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, e)| *e);
             ways.push((Rotor::felt(rotor), others.collect()));

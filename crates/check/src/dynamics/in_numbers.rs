@@ -25,7 +25,7 @@ pub(super) fn judged(
 ) -> Vec<Claim> {
     let Some(reading) = Reading::new(text, subject, attempt).filter(|r| !r.is_open()) else { return vec![] };
     let Some(model) = attempt.model(subject, 0) else { return vec![] };
-    let n = attempt.rows.len();
+    let n = attempt.model.state.q.len();
     let kinds: Vec<JointKind> = subject.description.variables().iter().map(|v| v.kind).collect();
     let states: Vec<(Range<usize>, State)> = sentences(text)
         .into_iter()

@@ -83,7 +83,7 @@ impl Reader<'_> {
                     grid.rows.iter().flatten().map(|s| lone_name(self.text, s)).collect();
                 let is_torque = |n: &Option<Name>| {
                     n.as_ref().is_some_and(|n| {
-                        !of_scalar(n, self.n, Content { accelerations: true, ..Content::default() })
+                        !of_scalar(n, self.size(), Content { accelerations: true, ..Content::default() })
                             .is_empty()
                     })
                 };

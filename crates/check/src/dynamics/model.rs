@@ -5,7 +5,7 @@ use super::bodies::{axis, ends, joint};
 use super::points::{self, Place};
 use super::quantity::Quantity;
 use crate::jacobians::derivative;
-use denavit::description::Description;
+use denavit::description::{Description, JointKind, Row};
 use denavit::dynamics::{
     Dynamics, Formulas, gravity_torques, inertia_matrix, kinetic_energy, potential_energy, velocity_torques,
 };
@@ -116,12 +116,21 @@ struct Points {
     known: RefCell<BTreeMap<(usize, Place), Option<Moving>>>,
 }
 
-/// The rows that move, of an arm in which each joint moves one row.
+/// The rows that move: those with a joint of their own, and those that follow others.
 pub(super) fn moving_rows(d: &Description) -> Option<Vec<usize>> {
-    let rows: Vec<usize> =
-        d.rows.iter().enumerate().filter(|(_, r)| r.variable.is_some()).map(|(k, _)| k).collect();
-    let joints = d.variables().len();
-    (rows.len() == joints && joints > 0).then_some(rows)
+    let rows: Vec<usize> = (0..d.rows.len()).filter(|&k| motion(d, &d.rows[k]).is_some()).collect();
+    (!d.variables().is_empty()).then_some(rows)
+}
+
+/// How a row moves, by a joint of its own or behind others.
+pub(super) fn motion(d: &Description, row: &Row) -> Option<JointKind> {
+    let joints = d.variables();
+    let follows = |e: Expr| e.symbols().iter().any(|s| joints.iter().any(|v| v.symbol == *s));
+    match row.variable {
+        Some(v) => Some(v.kind),
+        None if follows(row.theta) => Some(JointKind::Revolute),
+        None => follows(row.d).then_some(JointKind::Prismatic),
+    }
 }
 
 impl Model {
@@ -149,23 +158,28 @@ impl Model {
         for (&k, &[xx, xy, xz, yy, yz, zz, mx, my, mz, m, rotor, ..]) in rows.iter().zip(bodies) {
             let row = &mut d.rows[k];
             row.mass = Some(m);
-            row.rotor = Some(rotor);
+            row.rotor = row.variable.is_some().then_some(rotor);
             row.first_moment = Some([mx, my, mz]);
             row.inertia_at_origin = Some([xx, xy, xz, yy, yz, zz]);
         }
         let mut formulas = Formulas::new(&d);
         formulas.dynamics.gravity = Vector(gravity);
         let arm = &formulas.dynamics;
-        if arm.links.len() != rows.len() || arm.joints() != rows.len() {
+        if arm.links.len() != rows.len() {
             return None;
         }
+        // The drive that stands in each row.
+        let joints = d.variables();
+        let drive = |k: usize| joints.iter().position(|v| Some(*v) == d.rows[rows[k]].variable);
         let [q, qd, _] = formulas.state();
         let alone = |k: usize| -> Dynamics<Expr> {
             let mut arm = arm.clone();
             for (i, link) in arm.links.iter_mut().enumerate() {
                 if i != k {
                     link.body = Body::nothing();
-                    arm.drives[i].rotor = Expr::int(0);
+                    if let Some(j) = drive(i) {
+                        arm.drives[j].rotor = Expr::int(0);
+                    }
                 }
             }
             arm
@@ -207,6 +221,10 @@ impl Model {
             let (coupled, along) = (body[COUPLED], body[ALONG]);
             if coupled.is_zero() && along.is_zero() {
                 continue;
+            }
+            // The joint of a row is known where each has one.
+            if bodies.len() != n {
+                return None;
             }
             // A link turns about its axis at q̇ and the rate of the link before.
             let turning = self.points.turning(k, &self.state)?;
@@ -305,6 +323,11 @@ impl Model {
     fn christoffel(&self, i: usize, j: usize, k: usize) -> Option<Expr> {
         let sum = self.slope(i, j, k)? + self.slope(i, k, j)? - self.slope(j, k, i)?;
         Some(Expr::from(Rational::new(1, 2)) * sum)
+    }
+
+    /// How many bodies there are.
+    pub fn bodies(&self) -> usize {
+        self.kinetic.len()
     }
 
     /// The value of a quantity; nothing for what the arm has not.

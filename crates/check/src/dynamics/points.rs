@@ -169,7 +169,7 @@ impl Named {
 impl Reader<'_> {
     /// What a side says of a point, unless the name stands for something else.
     pub(super) fn named(&self, span: &Range<usize>) -> Option<Named> {
-        let named = named(self.text, span, self.n, &self.names.letters)?;
+        let named = named(self.text, span, self.names.bodies, &self.names.letters)?;
         self.names.vocabulary.lookup(&named.word).is_none().then_some(named)
     }
 
@@ -197,7 +197,7 @@ impl Reader<'_> {
             if named.kind.is_matrix() || moves != content.rates && !value.is_zero() {
                 continue;
             }
-            let candidates = named.quantities(self.n);
+            let candidates = named.quantities(self.names.bodies);
             let name = match named.kind {
                 Kind::Rate(_) => format!("dot{}", named.word),
                 _ => named.word.clone(),

@@ -60,6 +60,54 @@ pub(super) enum Quantity {
     Speed(Place, usize),
 }
 
+/// How many joints an arm has, and how many bodies: more, where rows follow others.
+#[derive(Clone, Copy)]
+pub(super) struct Size {
+    pub joints: usize,
+    pub bodies: usize,
+}
+
+impl Size {
+    /// That of an arm with a body behind each joint.
+    pub fn of(joints: usize) -> Self {
+        Size { joints, bodies: joints }
+    }
+
+    /// Whether an arm of that size has a quantity.
+    fn has(self, quantity: Quantity) -> bool {
+        let is_joint = |all: &[usize]| all.iter().all(|k| *k < self.joints);
+        match quantity {
+            Quantity::Kinetic(Some(k))
+            | Quantity::Link(k)
+            | Quantity::Motor(k)
+            | Quantity::Potential(Some(k))
+            | Quantity::Coordinate(_, k, _)
+            | Quantity::Rate(_, k, _)
+            | Quantity::Speed(_, k) => k < self.bodies,
+            Quantity::Slope(_, k, _, j) => k < self.bodies && is_joint(&[j]),
+            Quantity::Torque(i)
+            | Quantity::Bias(i)
+            | Quantity::Inertial(i)
+            | Quantity::Velocity(i)
+            | Quantity::Gravity(i)
+            | Quantity::Momentum(i)
+            | Quantity::MomentumRate(i)
+            | Quantity::KineticSlope(i)
+            | Quantity::LagrangianSlope(i) => is_joint(&[i]),
+            Quantity::Inertia(i, j)
+            | Quantity::InertiaRate(i, j)
+            | Quantity::Centrifugal(i, j)
+            | Quantity::CoriolisEntry(i, j) => is_joint(&[i, j]),
+            Quantity::Coriolis(i, j, k) | Quantity::Christoffel(i, j, k) | Quantity::Asada(i, j, k) => {
+                is_joint(&[i, j, k])
+            }
+            Quantity::Kinetic(None) | Quantity::Potential(None) | Quantity::Lagrangian | Quantity::Energy => {
+                true
+            }
+        }
+    }
+}
+
 impl Quantity {
     /// True for what is known but for a constant.
     pub fn is_up_to_constant(self) -> bool {
@@ -162,13 +210,14 @@ pub(super) fn symbol(name: &Name, n: usize) -> Option<(String, [usize; 3])> {
 }
 
 /// What a scalar with a name may be, by its letters and what its formula speaks of.
-pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity> {
+pub(super) fn of_scalar(name: &Name, size: Size, content: Content) -> Vec<Quantity> {
+    let n = size.joints;
     let (letters, digits) = key(name);
     let is = |all: &[&str]| all.contains(&letters.as_str());
     // `T_{\ell_1}`, that of a link.
     let is_energy = |all: &[&str]| is(all) || letters.strip_suffix('l').is_some_and(|l| all.contains(&l));
     let mut found = vec![];
-    let index = indices(&digits, n);
+    let index = indices(&digits, n.max(size.bodies));
     let index = match index {
         None if digits.is_empty() && n == 1 => Some(vec![0]),
         other => other,
@@ -230,7 +279,14 @@ pub(super) fn of_scalar(name: &Name, n: usize, content: Content) -> Vec<Quantity
         }
         _ => {}
     }
+    found.retain(|q| size.has(*q));
     if digits.is_empty() {
+        if size.bodies > 1 {
+            // Of several bodies the one is not named.
+            found.retain(|q| {
+                !matches!(q, Quantity::Kinetic(Some(_)) | Quantity::Motor(_) | Quantity::Potential(Some(_)))
+            });
+        }
         if letters == "L" || letters == "ℒ" {
             found.push(Quantity::Lagrangian);
         }

@@ -86,7 +86,7 @@ pub(super) struct State {
 
 /// Judges the torques that sentences give.
 pub(super) fn judged(text: &str, subject: &Subject, attempt: &Attempt, robot: usize) -> Vec<Claim> {
-    let n = attempt.rows.len();
+    let n = attempt.model.state.q.len();
     let mut claims = vec![];
     let mut known: Option<State> = None;
     let reading = Reading::new(text, subject, attempt);
@@ -137,7 +137,7 @@ impl Reading {
     pub fn new(text: &str, subject: &Subject, attempt: &Attempt) -> Option<Self> {
         let model = attempt.model(subject, 0)?;
         let torques: Vec<Expr> =
-            (0..attempt.rows.len()).map(|j| model.value(Quantity::Torque(j))).collect::<Option<_>>()?;
+            (0..model.state.q.len()).map(|j| model.value(Quantity::Torque(j))).collect::<Option<_>>()?;
         let mut values: BTreeMap<Symbol, f64> = BTreeMap::new();
         let names = subject.vocabulary();
         for (word, value) in measures(text) {

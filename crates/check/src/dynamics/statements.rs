@@ -4,7 +4,7 @@
 use super::letters::numbered;
 use super::model::State;
 use super::points::{self, Named, named};
-use super::quantity::{Content, Quantity, STYLES, Style, key, of_scalar, symbol};
+use super::quantity::{Content, Quantity, STYLES, Size, Style, key, of_scalar, symbol};
 use super::words::{Names, Role, is_grouped, words};
 use crate::lexis::read;
 use crate::names::{Name, Token, tokens};
@@ -144,7 +144,7 @@ pub(super) struct Reader<'a> {
 
 /// Reads statements about an arm.
 pub(super) fn statements(text: &str, statements: &[Statement], names: Names, state: &State) -> Read {
-    let order = in_order(text, statements, &names, state.q.len());
+    let order = in_order(text, statements, &names);
     let read = Read {
         pieces: vec![],
         rows: vec![],
@@ -175,9 +175,9 @@ pub(super) fn statements(text: &str, statements: &[Statement], names: Names, sta
 }
 
 /// The statements so that names are defined before they are used.
-fn in_order(text: &str, statements: &[Statement], own: &Names, n: usize) -> Vec<usize> {
+fn in_order(text: &str, statements: &[Statement], own: &Names) -> Vec<usize> {
     let word_of = |span: Range<usize>| {
-        let point = named(text, &span, n, &own.letters);
+        let point = named(text, &span, own.bodies, &own.letters);
         point.map(|p| p.word).or_else(|| lone_name(text, &span).map(|name| word(&name)))
     };
     let mut defines: BTreeMap<String, Vec<usize>> = BTreeMap::new();
@@ -243,6 +243,11 @@ const KINDS: [Content; 3] = [
 ];
 
 impl Reader<'_> {
+    /// How many joints and bodies the arm has.
+    pub(super) fn size(&self) -> Size {
+        Size { joints: self.n, bodies: self.names.bodies }
+    }
+
     pub(super) fn content(&self, e: Expr) -> Content {
         let mut content = Content::default();
         for s in e.symbols() {
@@ -347,7 +352,7 @@ impl Reader<'_> {
             }
             let name = lone_name(self.text, &span);
             let is_mentioned = |name: &Name| {
-                !of_scalar(name, self.n, Content { accelerations: true, rates: false, gravity: true })
+                !of_scalar(name, self.size(), Content { accelerations: true, rates: false, gravity: true })
                     .is_empty()
             };
             // `c_{121} = … = h`: a name that is defined there.
@@ -457,7 +462,7 @@ impl Reader<'_> {
             // Beside Khalil's A a name `m_{12}` is one of something on the way.
             let has_ten = self.names.roles.values().any(|r| matches!(r, Role::Ten(..)));
             for name in indexed.iter().filter(|n| !(has_ten && n.base == "m")) {
-                for found in contents.iter().flat_map(|c| of_scalar(name, self.n, *c)) {
+                for found in contents.iter().flat_map(|c| of_scalar(name, self.size(), *c)) {
                     if !candidates.contains(&found) {
                         candidates.push(found);
                     }

@@ -3,7 +3,7 @@
 use super::letters::{Letters, is_body as is_lettered, letters};
 use super::measures::measures;
 use super::points::{Kind, Named, named};
-use super::quantity::{Content, Quantity, is_coriolis, is_inertia, is_symbol, key, of_scalar};
+use super::quantity::{Content, Quantity, Size, is_coriolis, is_inertia, is_symbol, key, of_scalar};
 use super::statements::{formula_span, lone_name, word};
 use super::words::{Role, role, words};
 use denavit_reading::document::{Document, Part, Statement};
@@ -156,7 +156,7 @@ pub(in crate::dynamics) fn taken(
                 name.filter(|n| n.left.is_empty() && !n.is_inverse && !(has_jacobians && n.base == "J"));
             // `M_{11} = m l^2`
             let is_entry = name.as_ref().is_some_and(|n| {
-                let still = of_scalar(n, JOINTS, Content::default());
+                let still = of_scalar(n, Size::of(JOINTS), Content::default());
                 matches!(still[..], [Quantity::Inertia(..)])
             });
             // `c_{112} = -m l^2 s_2 c_2`
@@ -284,7 +284,7 @@ fn is_of_dynamics(text: &str, statement: &Statement, spoken: &Spoken) -> bool {
     let is_grid = statement.sides.iter().flat_map(|s| &s.parts).any(|p| matches!(p, Part::Matrix(_)));
     let kinds = [(false, true, false), (false, false, true), (false, false, false), (true, true, true)];
     let is_scalar = kinds.iter().any(|&(accelerations, rates, gravity)| {
-        !of_scalar(&name, JOINTS, Content { accelerations, rates, gravity }).is_empty()
+        !of_scalar(&name, Size::of(JOINTS), Content { accelerations, rates, gravity }).is_empty()
     });
     is_scalar || is_grid && (is_inertia(&name) || is_coriolis(&name) || spoken.has_rates)
 }
@@ -302,7 +302,7 @@ fn is_in_numbers(text: &str, statement: &Statement) -> bool {
         return false;
     }
     let is = |rates: bool, gravity: bool| {
-        !of_scalar(&name, JOINTS, Content { accelerations: false, rates, gravity }).is_empty()
+        !of_scalar(&name, Size::of(JOINTS), Content { accelerations: false, rates, gravity }).is_empty()
     };
     let has_joint = source.contains(['c', 's']);
     is(false, false) || has_joint && (is(has_rates(source), true) || is(true, false))

@@ -1,9 +1,12 @@
 //! What sentences say of a document's dynamics: where gravity pulls, about which points inertias are, and what the links are.
 
 use super::described::{CENTRES, Described, INERTIA, described};
+use super::words::Role;
 use crate::facts::Spoken;
 use crate::leeway::HELD;
 use crate::tools::edge;
+use denavit_symbolic::Symbol;
+use std::collections::BTreeMap;
 
 /// The point about which the inertias of links are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -350,6 +353,32 @@ pub(super) fn is_special_case(words: &str) -> bool {
         is_joint && is_value
     });
     has_value || HELD.iter().chain(&WORDS).any(|w| lower.contains(w))
+}
+
+/// What names stand for as words say it: of other links than their numbers say, and inertias that no formula has.
+pub(super) fn as_told(roles: &BTreeMap<Symbol, Role>, told: &Told, n: usize) -> BTreeMap<Symbol, Role> {
+    let mut all = roles.clone();
+    for (name, &link) in told.links.links.iter().filter(|(_, link)| **link < n) {
+        if let Some(role) = all.get_mut(&Symbol::new(name)) {
+            *role = match *role {
+                Role::Length(Some(_)) => Role::Length(Some(link)),
+                Role::Inertia(Some(_)) => Role::Inertia(Some(link)),
+                Role::About(_, axis) => Role::About(link, axis),
+                other => other,
+            };
+        }
+    }
+    for (name, link) in &told.links.inertias {
+        let links = link.map_or(0..n, |k| k..(k + 1).min(n));
+        all.extend(links.map(|k| (numbered(name, k), Role::Inertia(Some(k)))));
+    }
+    all
+}
+
+/// `I_i` of link 1, from 0, is `I_2`.
+fn numbered(name: &str, link: usize) -> Symbol {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, 'i' | 'j' | 'k'));
+    Symbol::new(&format!("{letters}{}", link + 1))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The names in formulas of dynamics: rates and accelerations in all their spellings, masses, inertias, places of centres of mass.
 
 use super::letters::{Letters, role_of};
+use super::model::motion;
 use crate::facts::Motion;
 use crate::subject::{Subject, spellings as spelled};
 use denavit::description::JointKind;
@@ -250,6 +251,8 @@ pub(super) struct Names {
     pub roles: BTreeMap<Symbol, Role>,
     /// Of each joint, whether it slides.
     pub slides: Vec<bool>,
+    /// How many bodies there are, one behind each row that moves.
+    pub bodies: usize,
     /// The bodies that letters stand for.
     pub letters: Letters,
     /// Formulas have numbers for what the document measures, gravity among it.
@@ -310,10 +313,10 @@ pub(super) fn names(
         rate(format!("{letters}pp{number}"), qdd);
     }
     // `\dot\theta_{12}`
-    for from in 0..n {
+    for from in 0..state.qd.len() {
         let mut digits = (from + 1).to_string();
         let mut sums = [state.qd[from], state.qdd[from]].map(Expr::from);
-        for to in from + 1..n {
+        for to in from + 1..state.qd.len() {
             digits += &(to + 1).to_string();
             sums = [sums[0] + Expr::from(state.qd[to]), sums[1] + Expr::from(state.qdd[to])];
             for letter in ["θ", "q"] {
@@ -397,13 +400,13 @@ pub(super) fn names(
         roles.insert(Symbol::new(word), role);
     }
     let slides = variables.iter().map(|v| v.kind == JointKind::Prismatic).collect();
-    Names { vocabulary, roles, slides, letters: letters.clone(), is_measured: false }
+    Names { vocabulary, roles, slides, bodies: n, letters: letters.clone(), is_measured: false }
 }
 
 /// The length of a link, by the row that holds it.
 pub(super) fn length_of(subject: &Subject, rows: &[usize], k: usize) -> Option<Expr> {
     let d = &subject.description;
     let row = d.rows.get(rows[k] + usize::from(!d.convention.begins_with_joint()))?;
-    let is_slide = row.variable.is_some_and(|v| v.kind == JointKind::Prismatic);
+    let is_slide = motion(d, row) == Some(JointKind::Prismatic);
     [row.a, row.d].into_iter().find(|e| !(e.is_zero() || is_slide && *e == row.d))
 }

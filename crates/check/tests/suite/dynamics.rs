@@ -260,3 +260,24 @@ fn gears_groupings_and_numbers_are_read() {
         assert_eq!(open, [(name, Standing::Undecided)], "{}", document.0);
     }
 }
+
+/// A row that follows others is a link with a mass of its own: one more than there are joints.
+#[test]
+fn rows_that_follow_others_are_links() {
+    all_right(document!("level_plate.md"), 7);
+    wrong(document!("level_plate_sign.md"), &[("\\tau_2", Standing::Wrong, "-", "+")]);
+    // Whose inertia the rotors' is, is not known there.
+    let rotors =
+        include_str!("../dynamics/level_plate.md").replace("I_2 + m_3 a_2^2", "I_2 + J_{m2} + m_3 a_2^2");
+    let all = checked(("rotors.md", &rotors));
+    assert!(all.claims.is_empty() && all.unjudged.len() == 7, "{:?}", all.claims.len());
+    // Before another joint its body may have the number of either: what is right is proved, and nothing called wrong.
+    let table = "| 2 | a2 | 0 | 0 | q2 |\n| 3 | a3 | 0 | 0 | -q1 - q2 |";
+    let before = include_str!("../dynamics/level_plate_sign.md");
+    assert!(before.contains(table));
+    let before = before
+        .replace(table, "| 2 | a2 | 0 | 0 | -q1 |\n| 3 | a3 | 0 | 0 | q2 |")
+        .replace("level", "on rails");
+    let all = checked(("before.md", &before));
+    assert!(all.claims.iter().all(|c| c.standing() != Standing::Wrong), "{:?}", all.claims);
+}

@@ -54,7 +54,7 @@ pub struct DynamicsArguments {
     /// the centre, xx, xy, xz, yy, yz, zz
     #[arg(long, value_name = "MASS", allow_hyphen_values = true)]
     pub payload: Option<String>,
-    /// Where wrenches, of --wrench or --input, are exerted, in place of the tool: a frame by its number or name
+    /// Where wrenches, of --wrench or --input, are exerted, in place of the tool: a frame by its number or name; with --whole a link
     #[arg(long, value_name = "FRAME")]
     pub at: Option<String>,
     /// What the tool exerts on its surroundings: force and moment about its origin, `fx, fy, fz, mx, my, mz` along the axes of
@@ -66,7 +66,7 @@ pub struct DynamicsArguments {
     pub derivatives: bool,
     /// All joints of a tree of bodies (a URDF, an MJCF or a tree of rows) and not one chain through it: the root stands still. -q, --qd,
     /// --qdd and --tau have a value a joint, branch after branch as `fk --frames all` has them; -q takes names, too, as in -q "elbow=0.5"
-    #[arg(long, conflicts_with_all = ["input", "simulate", "payload", "at", "wrench", "explain", "base", "tip"])]
+    #[arg(long, conflicts_with_all = ["payload", "explain", "base", "tip"])]
     pub whole: bool,
     /// The acceleration of gravity in the base: x, -x, y, -y, z, -z (of 9.81 m/s²), none, or three components (m/s² where
     /// none has a unit)

@@ -8,6 +8,7 @@ mod generate;
 mod identify;
 #[cfg(feature = "parquet")]
 mod map;
+mod needed;
 mod path;
 mod recording;
 mod report;
@@ -26,6 +27,7 @@ pub use generate::{GenerateArguments, GoalName, LanguageName};
 pub use identify::{CriterionOf, IdentifyArguments, PriorName};
 #[cfg(feature = "parquet")]
 pub use map::{Columns, CompressionName, MapArguments, Wanted};
+pub use needed::arguments;
 pub use path::{PathArguments, PathFormat};
 pub use recording::{PoseColumns, RecordingArguments};
 pub use report::{LevelName, PaceName, ReportArguments, ReportFormat, ReportLanguage, SectionName};

@@ -214,7 +214,7 @@ fn words_of_dynamics() {
     {
         all(&|w| w.no_body(why).into());
     }
-    for gives in [Gives::OnAxis, Gives::Nothing, Gives::Inertia, Gives::Plan] {
+    for gives in [Gives::OnAxis, Gives::Nothing, Gives::Inertia, Gives::Plan, Gives::Across] {
         for link in [1, 2] {
             all(&|w| w.gives(link, gives));
         }

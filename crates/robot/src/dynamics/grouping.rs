@@ -4,12 +4,14 @@
 //! A mass m, a first moment mz and a second moment zz along the axis are at the same place on both links, so that no energy
 //! changes. With m = M, mz = MZ and zz = YY a link keeps XX − YY, XY, XZ, YZ, ZZ, MX and MY. A slide keeps its mass and its first
 //! moment. Where all turns before it are about its own direction, it is fixed to the link before as seen along that direction: it
-//! keeps what it weighs along it alone, and the link before takes the rest, a mass for motions in the plan.
+//! keeps what it weighs along it alone, and the link before takes the rest, a mass for motions in the plan. Where they are about
+//! another direction, a first moment along that one stands still as the link turns, and has no effect: it is taken off such
+//! that one component is 0.
 
 use super::model::{Dynamics, Link};
 use crate::description::JointKind;
 use crate::geometry::{Body, Rotation, Transform, Vector};
-use denavit_symbolic::Expr;
+use denavit_symbolic::{Expr, equal};
 
 /// What a link has after grouping, about the origin of its frame.
 #[derive(Clone, Debug)]
@@ -31,6 +33,9 @@ pub enum Gives {
     Inertia,
     /// It slides along the direction of all turns before it: all but its mass along that.
     Plan,
+    /// It slides askew to the direction of all turns before it: its inertia, and its first moment along that direction counts
+    /// nowhere.
+    Across,
     /// It turns, and has a mass for each direction: nothing.
     Nothing,
 }
@@ -143,6 +148,14 @@ fn told_by(
             JointKind::Prismatic => {
                 gives[j] = Gives::Inertia;
                 all[j].inertia = [o; 6];
+                if let Some((axis, direction)) = turned_about(arm, j).and_then(|n| Some((greatest(n)?, n))) {
+                    gives[j] = Gives::Across;
+                    let part = own.first_moment[axis] / direction[axis];
+                    all[j].first_moment = Vector([0, 1, 2].map(|i| match i == axis {
+                        true => o,
+                        false => own.first_moment[i] - direction[i] * part,
+                    }));
+                }
                 let first_moment = Vector([o; 3]);
                 (Body { inertia: own.inertia, first_moment, mass: o }, Vector([o; 3]))
             }
@@ -185,6 +198,40 @@ fn diagonal(r: &Rotation<Expr>, mass: Vector<Expr>) -> Option<Vector<Expr>> {
         let about_z = rows[2][0].is_zero() && rows[2][1].is_zero();
         (about_z && x == y).then_some(mass)
     })
+}
+
+/// The direction of all turns before a link, in the frame before its motion, if they have one that is constant there.
+fn turned_about(arm: &Dynamics<Expr>, link: usize) -> Option<Vector<Expr>> {
+    let is_none = |e: Expr| e.is_zero() || equal(e, Expr::int(0)).is_equal();
+    // From the link's frame to that of the one that is looked at; behind the last turn the direction in the latter.
+    let mut r = arm.links[link].before.rotation;
+    let mut found: Option<(Vector<Expr>, Vector<Expr>)> = None;
+    let mut next = arm.links[link].parent;
+    while let Some(k) = next {
+        let link = &arm.links[k];
+        if link.kind == JointKind::Revolute {
+            let [_, _, z] = r.rows();
+            let (_, here) = *found.get_or_insert((Vector(z), r * Vector(z)));
+            if !is_none(here[0]) || !is_none(here[1]) {
+                return None;
+            }
+        }
+        next = link.parent;
+        match &mut found {
+            // A turn about it leaves it as it is.
+            Some((_, here)) => *here = link.before.rotation * *here,
+            None => r = link.before.rotation * r,
+        }
+    }
+    found.map(|f| f.0)
+}
+
+/// The axis to which a direction in numbers is nearest; nothing for one that is along an axis, or has names.
+fn greatest(direction: Vector<Expr>) -> Option<usize> {
+    let sizes: Vec<f64> =
+        direction.0.iter().map(|e| e.eval(|_| None).map(f64::abs)).collect::<Result<_, _>>().ok()?;
+    let is_along = direction.0.iter().filter(|e| !e.is_zero()).count() == 1;
+    (!is_along).then(|| (0..3).fold(0, |best, i| if sizes[i] >= sizes[best] { i } else { best }))
 }
 
 /// Whether a slide is along the direction of all turns before it, of which there is one, and masses can be kept apart by

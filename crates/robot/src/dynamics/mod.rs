@@ -9,7 +9,7 @@
 //! - [`inverse_dynamics`]: the recursion of Newton and Euler; gravity and velocity torques are cases of it.
 //! - [`inertia_matrix`]: A(q), by composite bodies.
 //! - [`kinetic_energy`], [`potential_energy`]: the energies.
-//! - [`momentum`]: of all mass, and about its centre; [`holding_torques`]: what holds a wrench; [`power`]: where it goes.
+//! - [`momentum`]: of all mass, and about its centre; [`holding_torques`], [`holding_at`]: what holds a wrench; [`power`]: where it goes.
 //! - [`regressor`]: W with τ = Wχ.
 //! - [`coriolis_matrix`]: C with C q̇ the velocity torques and Ȧ − 2C skew.
 //! - [`BaseModel`]: base parameters, and torques in them, with [`Representatives`] as they are wanted; [`DynamicModel`]: all as formulas, with the [`Ground`] they rest on.
@@ -59,7 +59,7 @@ pub use lagrange::{Ground, lagrange};
 pub use model::{Drive, Dynamics, Formulas, GRAVITY, Link, NoNumbers, Wrench};
 pub use momentum::{Momentum, momentum};
 pub use newton_euler::{drive_torques, friction, gravity_torques, inverse_dynamics, velocity_torques};
-pub use power::{Power, holding_torques, power};
+pub use power::{Power, holding_at, holding_torques, power};
 pub use programs::{DynamicFunction, DynamicProgram, DynamicPrograms, Loads, Masses, NoProgram};
 pub use recursion::{Inward, Outward, Recursion};
 pub use regressor::regressor;

@@ -1,7 +1,9 @@
 //! What holds a wrench that the arm exerts, and where power goes.
 
-use super::model::Dynamics;
+use super::model::{Dynamics, Wrench};
 use super::newton_euler::{friction, gravity_torques};
+use crate::description::JointKind;
+use crate::geometry::Vector;
 use crate::mechanism::Robot;
 use crate::velocity::{Viewpoint, geometric};
 
@@ -27,6 +29,34 @@ pub struct Power {
 pub fn holding_torques(robot: &Robot<f64>, q: &[f64], view: &Viewpoint<f64>, wrench: &[f64; 6]) -> Vec<f64> {
     let by = |column: &[f64; 6]| column.iter().zip(wrench).map(|(a, b)| a * b).sum();
     geometric(robot, q, view).columns.iter().map(by).collect()
+}
+
+/// The torques that hold a wrench, along the axes of the base, which a link exerts at a point of its own frame: for each axis z through
+/// p on the way to it z·(m + (r − p) × f), or z·f of a slide.
+///
+/// # Panics
+/// If `q` does not have one entry per joint, or there is no such link.
+pub fn holding_at(
+    arm: &Dynamics<f64>,
+    q: &[f64],
+    on: (usize, Vector<f64>),
+    [force, moment]: Wrench<f64>,
+) -> Vec<f64> {
+    assert_eq!(q.len(), arm.joints(), "one entry per joint");
+    let (link, point) = on;
+    let frames = arm.frames(arm.links.iter().map(|l| l.place(q)));
+    let r = frames[link].rotation * point + frames[link].translation;
+    let mut at_axes = vec![0.0; arm.links.len()];
+    let mut next = Some(link);
+    while let Some(k) = next {
+        let (z, p) = (frames[k].rotation.z(), frames[k].translation);
+        at_axes[k] = match arm.links[k].kind {
+            JointKind::Revolute => z.dot(moment + (r - p).cross(force)),
+            JointKind::Prismatic => z.dot(force),
+        };
+        next = arm.links[k].parent;
+    }
+    arm.at_joints(&at_axes)
 }
 
 /// Where the power of `torques` goes in the state `(q, qd)`; `held` is what of them holds a wrench.

@@ -16,6 +16,8 @@ pub struct OfTree<T> {
     pub dynamics: Dynamics<T>,
     /// The joints that move by themselves, by their numbers in the mechanism: the variables.
     pub joints: Vec<usize>,
+    /// Of each body of the mechanism the link that it is part of, none for what stands with the root, and its frame there.
+    pub places: Vec<Option<(Option<usize>, Transform<T>)>>,
 }
 
 /// Why there are no numbers of a tree.
@@ -161,7 +163,8 @@ impl<T: Scalar> OfTree<T> {
         let gravity = m.gravity.unwrap_or([o, o, Expr::from(Rational::new(-n, d))]).map(&value);
         let [Some(x), Some(y), Some(z)] = gravity else { return Err(Unknown::NoValue(m.name.clone())) };
         let gravity = Vector([x, y, z]);
-        Ok(OfTree { dynamics: Dynamics { links, tool: Transform::identity(), gravity, drives }, joints })
+        let dynamics = Dynamics { links, tool: Transform::identity(), gravity, drives };
+        Ok(OfTree { dynamics, joints, places: at })
     }
 }
 

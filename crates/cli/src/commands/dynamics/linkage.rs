@@ -163,7 +163,7 @@ fn answer(
     let [kinetic, potential] = held.energies(&qd);
     let (friction, gravity, momentum) = (held.friction(&qd), held.gravity(), held.momentum(&qd));
     let power = Power::of(&qd, &torques, &friction, &gravity, holding.as_deref());
-    Ok(Answer {
+    super::bounded(Answer {
         accelerations,
         derivatives: None,
         energy: Energy { kinetic, potential },
@@ -188,6 +188,7 @@ fn answer(
         qd,
         qdd,
     })
+    .map_err(|why| Failure::Input(format!("error: {why}")))
 }
 
 /// Follows the motion of all joints.

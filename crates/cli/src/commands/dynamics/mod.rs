@@ -17,12 +17,14 @@ use denavit::Robot;
 use denavit::description::{Description, JointKind, Measure, Row, Variable};
 use denavit::dynamics::{
     DynamicModel, Dynamics, GRAVITY, Ground, NoBasis, NoNumbers, Recursion, Representatives,
-    acceleration_derivatives, direct_dynamics, drive_torques, friction, gravity_torques, holding_torques,
-    inertia_matrix, kinetic_energy, momentum, potential_energy, power, torque_derivatives, velocity_torques,
+    acceleration_derivatives, direct_dynamics, drive_torques, friction, gravity_torques, holding_at,
+    holding_torques, inertia_matrix, kinetic_energy, momentum, potential_energy, power, torque_derivatives,
+    velocity_torques,
 };
 use denavit::forward::Reference;
 use denavit::geometry::{Body, Vector};
 use denavit::quantity::torque_unit;
+use denavit::space::JointSpace;
 use denavit::velocity::Viewpoint;
 use denavit_report::explain::{
     dynamics_document, dynamics_explanation, dynamics_vocabulary, recursion_vocabulary,
@@ -44,6 +46,11 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     }
     if arguments.at.is_some() && arguments.wrench.is_none() && arguments.input.is_none() {
         return Err(Failure::Usage("--at says where a wrench is exerted: give --wrench, too".into()));
+    }
+    if arguments.whole && arguments.wrench.is_some() && arguments.at.is_none() {
+        return Err(Failure::Usage(
+            "--wrench: a whole tree has no tool: name the link that exerts it with --at".into(),
+        ));
     }
     if let Some(closed) = load::without_chain(&arguments.robot)? {
         return linkage::run(arguments, closed);
@@ -103,7 +110,11 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     };
     let q = configuration(&description, text)?;
     if let Some(duration) = arguments.simulate {
-        return simulation::run(&description, &arm, arguments, duration, &q, given);
+        let joints =
+            description.variables().into_iter().map(|v| (v.symbol.name().to_string(), v.kind)).collect();
+        let limits = JointSpace::without_lengths(&description).limits;
+        let moving = simulation::Moving { name: &description.name, joints, limits, is_closed: false };
+        return simulation::run(&moving, &arm, arguments, duration, &q, given);
     }
     arm.say_stuck(&given.qd);
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
@@ -125,10 +136,21 @@ struct Arm {
     dynamics: Dynamics<f64>,
     name: String,
     joints: Vec<String>,
-    /// Its chain, and where on it a wrench is exerted; a whole tree exerts none.
-    exerts: Option<(Robot<f64>, Viewpoint<f64>)>,
+    /// Where a wrench is exerted, where that is said or there is a tool.
+    exerts: Option<Exerts>,
     /// Whether links have a part in it that are beside that chain.
     is_whole: bool,
+}
+
+/// Where a wrench is exerted.
+#[derive(Clone)]
+enum Exerts {
+    /// By a body of a chain.
+    Chain(Robot<f64>, Viewpoint<f64>),
+    /// At a point of a link of a tree, in its frame.
+    Link(usize, Vector<f64>),
+    /// By what stands still.
+    Root,
 }
 
 /// An arm with masses in numbers.
@@ -183,7 +205,7 @@ impl Arm {
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         let is_whole = whole.is_some();
-        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some((robot, at)), is_whole })
+        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some(Exerts::Chain(robot, at)), is_whole })
     }
 
     /// Says which joints stand still and have Coulomb's friction, which is then not known.
@@ -197,8 +219,15 @@ impl Arm {
     fn answer(&self, given: Given, q: Vec<f64>) -> Result<Answer, String> {
         let (arm, n) = (&self.dynamics, self.joints.len());
         let Given { qd, qdd, tau, wrench, derivatives } = given;
-        let held =
-            wrench.zip(self.exerts.as_ref()).map(|(w, (robot, at))| holding_torques(robot, &q, at, &w));
+        let held = match (wrench, &self.exerts) {
+            (None, _) => None,
+            (Some(_), None) => return Err("no link is named that exerts `wrench`: --at LINK".into()),
+            (Some(_), Some(Exerts::Root)) => Some(vec![0.0; n]),
+            (Some(w), Some(Exerts::Chain(robot, at))) => Some(holding_torques(robot, &q, at, &w)),
+            (Some([a, b, c, k, m, o]), Some(Exerts::Link(link, point))) => {
+                Some(holding_at(arm, &q, (*link, *point), [Vector([a, b, c]), Vector([k, m, o])]))
+            }
+        };
         let less = |all: &[f64], sign: f64| -> Vec<f64> {
             let held = held.iter().flatten().copied().chain(std::iter::repeat(0.0));
             all.iter().zip(held).map(|(t, h)| t + sign * h).collect()
@@ -219,7 +248,7 @@ impl Arm {
         let (friction, gravity) = (friction(arm, &qd), gravity_torques(arm, &q));
         let power = power(arm, &q, &qd, &torques, held.as_deref());
         let momentum = momentum(arm, &q, &qd);
-        Ok(Answer {
+        bounded(Answer {
             accelerations,
             derivatives,
             energy: Energy { kinetic: kinetic_energy(arm, &q, &qd), potential: potential_energy(arm, &q) },
@@ -267,6 +296,25 @@ impl Arm {
     /// Why no acceleration follows from torques.
     fn moves_nothing(&self, joint: usize) -> String {
         without_mass(&self.joints[joint])
+    }
+}
+
+/// An answer of numbers that doubles hold.
+fn bounded(answer: Answer) -> Result<Answer, String> {
+    let Answer { torques, accelerations, inertia, velocity, momentum, energy, power, derivatives, .. } =
+        &answer;
+    let slopes = derivatives
+        .iter()
+        .flat_map(|d| [Some(&d.by_q), Some(&d.by_qd), d.by_qdd.as_ref(), d.by_tau.as_ref()]);
+    let rows =
+        inertia.iter().chain(slopes.flatten().flatten()).chain([torques, velocity]).chain(accelerations);
+    let mut all = rows.flatten().chain(&momentum.linear).chain(&momentum.angular);
+    let sums = [energy.kinetic, energy.potential, power.supplied, power.kinetic];
+    let is_finite = all.all(|x| x.is_finite()) && sums.iter().all(|x| x.is_finite());
+    drop(all);
+    match is_finite {
+        true => Ok(answer),
+        false => Err("the state is so large that doubles do not hold what follows from it".into()),
     }
 }
 

@@ -6,12 +6,10 @@ use crate::commands::fk::plural;
 use crate::failure::Failure;
 use crate::load;
 use crate::terminal::{Align, FAINT, HEADING, decimals, note, number, styled, table};
-use denavit::description::{Description, JointKind};
+use denavit::description::JointKind;
 use denavit::dynamics::{Acting, Method, Moment, NoMotion, Simulation, Torques, simulate};
 use denavit::geometry::Vector;
 use denavit::quantity::reading;
-use denavit::space::JointSpace;
-use denavit::velocity::Viewpoint;
 use denavit_report::figure::drawing::Label;
 use denavit_report::figure::plot::{Curve, Panel, curves};
 use denavit_report::figure::svg::{Palette, svg};
@@ -48,15 +46,17 @@ pub struct Moving<'a> {
 /// # Errors
 /// If an option or a file cannot be read, the motion cannot be followed to its end, or nothing can be written.
 pub fn run(
-    d: &Description,
+    moving: &Moving<'_>,
     arm: &Arm,
     arguments: &DynamicsArguments,
     duration: f64,
     q: &[f64],
     given: Given,
 ) -> Result<(), Failure> {
-    if arm.exerts.as_ref().is_some_and(|(_, at)| *at != Viewpoint::tool()) {
-        return Err(Failure::Usage("--at: --simulate has wrenches of the tool; leave it away".into()));
+    if arguments.at.is_some() {
+        return Err(Failure::Usage(
+            "--at: --simulate has wrenches of the tool of a chain; leave it away".into(),
+        ));
     }
     let wrench = given.wrench.map(|[a, b, c, k, m, n]| [Vector([a, b, c]), Vector([k, m, n])]);
     if wrench.is_some() && arm.is_whole {
@@ -69,10 +69,7 @@ pub fn run(
     };
     let dt = between(arguments, duration);
     let found = simulate(&arm.dynamics, (q, &given.qd), &Acting { torques, wrench }, (duration, dt), method);
-    let joints = d.variables().into_iter().map(|v| (v.symbol.name().to_string(), v.kind)).collect();
-    let limits = JointSpace::without_lengths(d).limits;
-    let moving = Moving { name: &d.name, joints, limits, is_closed: false };
-    told(&moving, found, arguments, method, duration)
+    told(moving, found, arguments, method, duration)
 }
 
 /// How a motion is integrated where no step is given.

@@ -1,6 +1,6 @@
 //! `dynamics --whole`: all joints of a tree.
 
-use super::{Arm, Given, gravity, no_basis, report, representatives};
+use super::{Arm, Exerts, Given, gravity, no_basis, numbers, report, representatives, simulation, stream};
 use crate::arguments::{DynamicsArguments, Format};
 use crate::commands::document;
 use crate::commands::fk::tree::{bodies, configuration, joints, kind};
@@ -67,7 +67,16 @@ pub fn printed(
     }
 }
 
-/// Answers what is asked about a state of a tree.
+/// The body that exerts a wrench at the origin of its frame.
+fn exerted_by(m: &Mechanism, tree: &OfTree<f64>, link: &str) -> Result<Exerts, Failure> {
+    let place = m.body(link).and_then(|body| tree.places[body]);
+    match place.ok_or_else(|| Failure::Usage(format!("--at {link}: there is no such link")))? {
+        (Some(link), place) => Ok(Exerts::Link(link, place.translation)),
+        (None, _) => Ok(Exerts::Root),
+    }
+}
+
+/// Answers what is asked about states of a tree.
 ///
 /// # Errors
 /// If it is no tree, masses or values are missing, an option cannot be read, or nothing can be written.
@@ -85,11 +94,25 @@ pub fn run(arguments: &DynamicsArguments) -> Result<(), Failure> {
     let found = OfTree::new(&m).map_err(|why| unknown(file, &why))?;
     let moving: Vec<(String, JointKind)> =
         joints(&m).into_iter().map(|j| (j.name.clone(), kind(j))).collect();
-    let q = configuration(&m, arguments.q.as_deref())?;
-    let given = Given::at_rest(&moving, arguments)?;
+    let exerts = arguments.at.as_deref().map(|link| exerted_by(&m, &found, link)).transpose()?;
+    let wrench = arguments.wrench.as_deref().map(|text| numbers(text, "--wrench", 6)).transpose()?;
+    let mut given = Given::at_rest(&moving, arguments)?;
+    given.wrench = wrench.and_then(|w| w.try_into().ok());
     let names = moving.iter().map(|j| j.0.clone()).collect();
-    let arm =
-        Arm { dynamics: found.dynamics, name: m.name.clone(), joints: names, exerts: None, is_whole: false };
+    let arm = Arm { dynamics: found.dynamics, name: m.name.clone(), joints: names, exerts, is_whole: false };
+    if let Some(path) = &arguments.input {
+        return stream::run(&arm, &given, path);
+    }
+    let q = configuration(&m, arguments.q.as_deref())?;
+    if let Some(duration) = arguments.simulate {
+        let moving = simulation::Moving {
+            name: &m.name,
+            joints: moving,
+            limits: m.variable_limits(),
+            is_closed: false,
+        };
+        return simulation::run(&moving, &arm, arguments, duration, &q, given);
+    }
     arm.say_stuck(&given.qd);
     let answer = arm.answer(given, q).map_err(|why| Failure::Input(format!("error: {why}")))?;
     let text = match arguments.json {

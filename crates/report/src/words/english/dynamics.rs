@@ -141,6 +141,10 @@ impl Dynamics for English {
             Gives::Inertia => format!(
                 "link {k} slides: it turns with {to}, which takes its inertia; it keeps M{k}, MX{k}, MY{k}, MZ{k}, with what it was given"
             ),
+            Gives::Across => format!(
+                "link {k} slides: it turns with {to}, which takes its inertia; it keeps M{k}, MX{k}, MY{k}, MZ{k}, with what it was given, \
+                 but for a first moment along the direction of all turns before it, which has no effect"
+            ),
             Gives::Plan => format!(
                 "link {k} slides along the direction of all turns before it: {to} takes everything but its mass along that direction"
             ),

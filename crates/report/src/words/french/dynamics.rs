@@ -156,6 +156,11 @@ impl Dynamics for French {
                 "le corps {k} glisse : son inertie, qui tourne avec le précédent, est comptée avec lui ({taker}) ; il garde M{k}, MX{k}, \
                  MY{k}, MZ{k}, avec ce qu’il a reçu"
             ),
+            Gives::Across => say!(
+                "le corps {k} glisse : son inertie, qui tourne avec le précédent, est comptée avec lui ({taker}) ; il garde M{k}, MX{k}, \
+                 MY{k}, MZ{k}, avec ce qu’il a reçu, sauf un premier moment le long de la direction de toutes les rotations qui le \
+                 précèdent, qui n’a aucun effet"
+            ),
             Gives::Plan => say!(
                 "le corps {k} glisse le long de la direction de toutes les rotations qui le précèdent : {taker} prend tout, sauf sa masse \
                  le long de cette direction"

@@ -158,6 +158,10 @@ impl Dynamics for German {
                 "Glied {k} gleitet: Es dreht sich mit {to}, und dort zählt seine Trägheit; es behält M{k}, MX{k}, MY{k}, MZ{k} samt \
                  dem, was es bekommen hat"
             ),
+            Gives::Across => format!(
+                "Glied {k} gleitet: Es dreht sich mit {to}, und dort zählt seine Trägheit; es behält M{k}, MX{k}, MY{k}, MZ{k} samt \
+                 dem, was es bekommen hat, ohne das erste Moment in der Richtung aller Drehachsen vor ihm, das nichts bewirkt"
+            ),
             Gives::Plan => format!(
                 "Glied {k} gleitet in der Richtung aller Drehachsen vor ihm: {taker} übernimmt alles außer seiner Masse in dieser \
                  Richtung"

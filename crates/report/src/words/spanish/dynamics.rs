@@ -156,6 +156,10 @@ impl Dynamics for Spanish {
                 "el eslabón {k} se desliza: gira con {before}, y su inercia se cuenta allí; conserva M{k}, MX{k}, MY{k}, MZ{k}, con lo \
                  que ha recibido"
             ),
+            Gives::Across => format!(
+                "el eslabón {k} se desliza: gira con {before}, y su inercia se cuenta allí; conserva M{k}, MX{k}, MY{k}, MZ{k}, con lo \
+                 que ha recibido, salvo un primer momento en la dirección de todos los ejes de giro anteriores, que no influye"
+            ),
             Gives::Plan => format!(
                 "el eslabón {k} se desliza en la dirección de todos los ejes de giro anteriores: {before} toma todo salvo su masa en esa \
                  dirección"
