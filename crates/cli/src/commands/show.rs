@@ -229,7 +229,7 @@ fn placement(what: &str, x: &Transform<Expr>) -> String {
 fn structure(d: &Description) -> String {
     let s = Structure::of(d);
     let mut text = format!("\n{}\n  {}\n", styled("Structure", HEADING), s.schematic());
-    let list = |joints: &[usize]| joints.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let list = |joints: &[usize]| words().listed(&joints.iter().map(ToString::to_string).collect::<Vec<_>>());
     for run in &s.parallel {
         text += &format!("  axes {} are parallel\n", list(run));
     }
@@ -245,7 +245,8 @@ fn structure(d: &Description) -> String {
             3 => "a spherical shoulder",
             _ => "a spherical joint",
         };
-        text += &format!("  axes {}, {}, {} meet in one point: {part}\n", first, first + 1, first + 2);
+        let all = list(&[first, first + 1, first + 2]);
+        text += &format!("  axes {all} meet in one point: {part}\n");
     }
     for near in &s.nearly {
         text += &format!("  {}; nothing is rounded\n", words().nearly(near));
