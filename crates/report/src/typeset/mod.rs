@@ -61,6 +61,7 @@ mod tests {
                 "<mi>atan2</mi><mo>(</mo><mi>y</mi><mo>,</mo><mi>x</mi><mo>)</mo>",
             ),
             (r"\sin 2q", "<mi class=\"fn\">sin</mi><mn>2</mn><mi>q</mi>"),
+            (r"(-a)-1", "<mo>(</mo><mo form=\"prefix\">−</mo><mi>a</mi><mo>)</mo><mo>−</mo><mn>1</mn>"),
             (r"f'", "<msup><mi>f</mi><mo>′</mo></msup>"),
             ("a < 0{,}5", "<mi>a</mi><mo>&lt;</mo><mn>0</mn><mrow><mo>,</mo></mrow><mn>5</mn>"),
             (

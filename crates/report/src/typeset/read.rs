@@ -185,7 +185,10 @@ impl<'a> Reader<'a> {
             }
             c => {
                 self.at += c.len_utf8();
-                Kind::Leaf(operator(c))
+                let is_sign = matches!(c, '-' | '−' | '+') && before.last().is_some_and(opens);
+                let sign = operator(c);
+                // Of one number, not between two.
+                Kind::Leaf(if is_sign { sign.replace("<mo>", "<mo form=\"prefix\">") } else { sign })
             }
         };
         Some(Some(Node { span: start..self.at, kind }))
@@ -428,6 +431,13 @@ fn operator(sign: char) -> String {
     format!("<mo>{}</mo>", escaped(&shown.to_string()))
 }
 
+/// True for a bracket that opens, a comma, a sign between two formulas.
+fn opens(node: &Node) -> bool {
+    let Kind::Leaf(text) = &node.kind else { return false };
+    let sign = text.strip_prefix("<mo>").and_then(|rest| rest.strip_suffix("</mo>"));
+    sign.is_some_and(|s| !matches!(s, ")" | "]" | "}" | "|" | "‖" | "′" | "∘" | "°" | "!"))
+}
+
 const BRACKETS: &[(&str, &str)] = &[
     ("(", "("),
     (")", ")"),
@@ -477,6 +487,19 @@ const SIGNS: &[(&str, &str)] = &[
     ("Leftrightarrow", "⇔"),
     ("iff", "⇔"),
     ("in", "∈"),
+    ("longrightarrow", "⟶"),
+    ("mapsto", "↦"),
+    ("propto", "∝"),
+    ("forall", "∀"),
+    ("angle", "∠"),
+    ("prod", "∏"),
+    ("otimes", "⊗"),
+    ("cap", "∩"),
+    ("cup", "∪"),
+    ("wedge", "∧"),
+    ("vee", "∨"),
+    ("ll", "≪"),
+    ("gg", "≫"),
     ("dots", "…"),
     ("ldots", "…"),
     ("cdots", "⋯"),
