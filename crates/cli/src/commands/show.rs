@@ -230,12 +230,23 @@ fn structure(d: &Description) -> String {
     let s = Structure::of(d);
     let mut text = format!("\n{}\n  {}\n", styled("Structure", HEADING), s.schematic());
     let list = |joints: &[usize]| words().listed(&joints.iter().map(ToString::to_string).collect::<Vec<_>>());
-    for run in &s.parallel {
+    // Axes in a row, whether they turn or slide.
+    let mut runs: Vec<Vec<usize>> = s.parallel.clone();
+    for k in (0..s.relations.len()).filter(|&k| s.relations[k] == Relation::Parallel) {
+        let (before, behind): (Vec<_>, Vec<_>) =
+            runs.into_iter().partition(|run| run.contains(&(k + 1)) || run.contains(&(k + 2)));
+        let mut joined = [before.concat(), vec![k + 1, k + 2]].concat();
+        joined.sort_unstable();
+        joined.dedup();
+        runs = behind;
+        runs.push(joined);
+    }
+    runs.sort();
+    for run in &runs {
         text += &format!("  axes {} are parallel\n", list(run));
     }
     for (k, relation) in s.relations.iter().enumerate() {
-        let said = |run: &Vec<usize>| run.contains(&(k + 1)) && run.contains(&(k + 2));
-        if *relation != Relation::Parallel || !s.parallel.iter().any(said) {
+        if *relation != Relation::Parallel {
             text += &format!("  axes {} and {} {}\n", k + 1, k + 2, words().relation(*relation));
         }
     }

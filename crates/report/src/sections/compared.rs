@@ -70,7 +70,7 @@ fn glance(all: &[Setting], language: Tongue) -> Section {
 fn pictures(all: &[Setting], language: Tongue) -> Option<Section> {
     let words = language.words();
     let mut section = Section::new(Vocabulary::new());
-    section.heading(2, Line::new(words.heading(Heading::Arm)));
+    section.heading(2, Line::new(words.heading(Heading::Arms)));
     let width = WIDTH / columns(all.len()) as f64;
     let arms: Vec<(&Arm, View, Line)> = all
         .iter()

@@ -14,6 +14,8 @@ use denavit_symbolic::{Expr, Refusal as Unexpanded};
 pub enum Heading {
     /// The pictures of the arm.
     Arm,
+    /// The pictures of several arms.
+    Arms,
     /// The Denavit–Hartenberg table.
     Table,
     /// The link transforms.

@@ -36,6 +36,7 @@ impl Report for English {
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "The arm",
+            Heading::Arms => "The arms",
             Heading::Table => "Denavit–Hartenberg table",
             Heading::Links => "Link transforms",
             Heading::Algorithm => "Algorithm",

@@ -36,6 +36,7 @@ impl Report for French {
     fn heading(&self, heading: Heading) -> String {
         printed(match heading {
             Heading::Arm => "Le bras",
+            Heading::Arms => "Les bras",
             Heading::Table => "Paramètres de Denavit–Hartenberg",
             Heading::Links => "Matrices de passage",
             Heading::Algorithm => "Algorithme",

@@ -36,6 +36,7 @@ impl Report for German {
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "Der Arm",
+            Heading::Arms => "Die Arme",
             Heading::Table => "Denavit-Hartenberg-Parameter",
             Heading::Links => "Transformationsmatrizen",
             Heading::Algorithm => "Algorithmus",

@@ -36,6 +36,7 @@ impl Report for Spanish {
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "El brazo",
+            Heading::Arms => "Los brazos",
             Heading::Table => "Parámetros de Denavit-Hartenberg",
             Heading::Links => "Matrices de transformación",
             Heading::Algorithm => "Algoritmo",

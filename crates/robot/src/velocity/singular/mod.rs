@@ -134,7 +134,7 @@ impl Example {
             is_still && (self.free.len() != 1 || others.iter().all(|e| moving(e) == moving(&self)));
         let loses_alike = others.iter().all(|e| kinds(e) == kinds(&self));
         let places: Vec<&Place> = others.iter().chain([&self]).map(|e| &e.place).collect();
-        let place = match is_still && places.iter().all(|p| **p == self.place) {
+        let place = match places.iter().all(|p| **p == self.place) {
             true => self.place.clone(),
             false => Place::shared(&places).unwrap_or(Place::Differs),
         };
