@@ -82,13 +82,17 @@ fn between(text: &str, start: usize, open: &str, close: &str, is_display: bool) 
     Some(Printed { outer: start..end + close.len(), inner: from..end, is_display })
 }
 
-/// `$x$`: no blank inside of the signs and no paragraph's end between them, so that prices are none.
+/// `$x$`: no blank inside of the signs, no paragraph's end and no code between them, so that prices are none.
 fn in_dollars(text: &str, start: usize) -> Option<Printed> {
     let mut from = start + 1;
     loop {
         let end = from + text[from..].find('$')?;
         let inside = &text[start + 1..end];
-        if inside.contains("\n\n") || inside.starts_with(char::is_whitespace) || inside.is_empty() {
+        if inside.contains("\n\n")
+            || inside.contains('`')
+            || inside.starts_with(char::is_whitespace)
+            || inside.is_empty()
+        {
             return None;
         }
         if inside.ends_with('\\') {
@@ -115,6 +119,7 @@ mod tests {
         for (text, expected) in [
             ("with $a_1$ and $$b$$", vec!["a_1", "b"]),
             ("it costs $5 and $6 more", vec![]),
+            ("it costs $5 and `$x$`", vec![]),
             ("`$a$` and ``` $b$ ``` and $c$", vec!["c"]),
             ("```\n$a$\n```\n\\[ d \\] \\(e\\)", vec!["d", "e"]),
             ("\\begin{align*} a &= b \\end{align*}", vec!["a &= b"]),
