@@ -90,6 +90,7 @@ pub use outcome::{
 };
 pub use values_asked::{Answer, Answered, ValueSlip};
 
+use denavit::description::table::millimetres_said;
 use denavit::description::{Convention, Description, TableOptions};
 use denavit_reading::code::Dialect;
 use denavit_reading::document::{self, Document, Format, Statement};
@@ -157,7 +158,7 @@ pub fn check(
         robot.is_none() && readings.any(|tables| convention::has_long_rows(&tables))
     };
     let in_millimetres =
-        || convention::in_millimetres(text).or_else(|| convention::only_in_millimetres(text).filter(is_long));
+        || millimetres_said(text).or_else(|| convention::only_in_millimetres(text).filter(is_long));
     let place = options.table.lengths_in_millimetres.is_none().then(in_millimetres).flatten();
     if let Some(place) = place {
         notes.note(place, Noted::InMillimetres);

@@ -18,7 +18,7 @@ use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Answered, Assertion, Defined, Goal, Walk, of_other_points, points};
 use denavit::catalogue;
-use denavit::description::table::PrintedTable;
+use denavit::description::table::{PrintedTable, convention_said};
 use denavit::description::{
     Convention, Description, Diagnostic, Measure, NotSet, Severity, TableKind, line_column,
 };
@@ -192,7 +192,7 @@ impl Plan {
         }
         let kind = kind_of_tables(format);
         let mut reading = options.table.clone();
-        if let (None, Some((convention, place))) = (reading.convention, convention::said(text)) {
+        if let (None, Some((convention, place))) = (reading.convention, convention_said(text)) {
             notes.note(place, Noted::ReadAs(convention));
             reading.convention = Some(convention);
         }

@@ -2,8 +2,9 @@
 
 use super::note::Notes;
 use super::plan::{Plan, kind_of_tables};
-use super::{CheckOptions, convention, dynamics, listing, readings};
+use super::{CheckOptions, dynamics, listing, readings};
 use denavit::description::Convention;
+use denavit::description::table::convention_said;
 use denavit_reading::document::{Document, Format};
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ pub(super) fn by_statements(
     document: &Document,
     options: &CheckOptions,
 ) -> Option<Supported> {
-    if options.table.convention.is_some() || format == Format::Toml || convention::said(text).is_some() {
+    if options.table.convention.is_some() || format == Format::Toml || convention_said(text).is_some() {
         return None;
     }
     let kind = kind_of_tables(format);

@@ -13,8 +13,10 @@ pub mod explain;
 mod explained;
 pub mod figure;
 pub mod render;
+mod product;
 mod sections;
 mod tree;
+pub mod typeset;
 pub mod words;
 
 pub use cell::{cell, decimals};

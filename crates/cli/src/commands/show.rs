@@ -229,13 +229,24 @@ fn placement(what: &str, x: &Transform<Expr>) -> String {
 fn structure(d: &Description) -> String {
     let s = Structure::of(d);
     let mut text = format!("\n{}\n  {}\n", styled("Structure", HEADING), s.schematic());
-    let list = |joints: &[usize]| joints.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-    for run in &s.parallel {
+    let list = |joints: &[usize]| words().listed(&joints.iter().map(ToString::to_string).collect::<Vec<_>>());
+    // Axes in a row, whether they turn or slide.
+    let mut runs: Vec<Vec<usize>> = s.parallel.clone();
+    for k in (0..s.relations.len()).filter(|&k| s.relations[k] == Relation::Parallel) {
+        let (before, behind): (Vec<_>, Vec<_>) =
+            runs.into_iter().partition(|run| run.contains(&(k + 1)) || run.contains(&(k + 2)));
+        let mut joined = [before.concat(), vec![k + 1, k + 2]].concat();
+        joined.sort_unstable();
+        joined.dedup();
+        runs = behind;
+        runs.push(joined);
+    }
+    runs.sort();
+    for run in &runs {
         text += &format!("  axes {} are parallel\n", list(run));
     }
     for (k, relation) in s.relations.iter().enumerate() {
-        let said = |run: &Vec<usize>| run.contains(&(k + 1)) && run.contains(&(k + 2));
-        if *relation != Relation::Parallel || !s.parallel.iter().any(said) {
+        if *relation != Relation::Parallel {
             text += &format!("  axes {} and {} {}\n", k + 1, k + 2, words().relation(*relation));
         }
     }
@@ -245,7 +256,8 @@ fn structure(d: &Description) -> String {
             3 => "a spherical shoulder",
             _ => "a spherical joint",
         };
-        text += &format!("  axes {}, {}, {} meet in one point: {part}\n", first, first + 1, first + 2);
+        let all = list(&[first, first + 1, first + 2]);
+        text += &format!("  axes {all} meet in one point: {part}\n");
     }
     for near in &s.nearly {
         text += &format!("  {}; nothing is rounded\n", words().nearly(near));

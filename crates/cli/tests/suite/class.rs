@@ -81,6 +81,24 @@ fn a_table_of_students() {
 }
 
 #[test]
+fn formulas_of_latex_are_typeset_with_their_slips() {
+    let markdown = b"The hand is at $x = a_1 C_1 + a_2 C_{2}$.\n\n$$\ny = a_1 S_1 + a_2 S_{12}\n$$\n\nIt costs $5 and `$x$`.\n";
+    let latex = b"\\begin{align}\nx &= a_1 C_1 + a_2 C_{12} \\\\\ny &= \\foo{S}\n\\end{align}\n\\[\\det J = a_1 a_2 S_2\\]\n";
+    let folder = class("typeset", &[("ben.md", markdown), ("cem.tex", latex), ("dora.txt", SLIP)]);
+    let page = folder.join("class.html").to_string_lossy().into_owned();
+    run(&folder, &["--html", &page]);
+    let page = std::fs::read_to_string(page).expect("a page");
+    let index = "<mrow class=\"del\"><msub><mi>C</mi><mn>2</mn></msub></mrow><mrow class=\"ins\"><msub><mi>C</mi><mn>12</mn></msub></mrow>";
+    assert!(page.contains(index), "{page}");
+    assert!(page.contains("<span class=\"display\"><math display=\"block\""), "{page}");
+    // The formula with a command that nobody knows stands as it was written, the next one is set.
+    assert!(page.contains("\\foo{S}") && page.contains("alttext=\"\\det J = a_1 a_2 S_2\""), "{page}");
+    assert!(page.contains("It costs $5 and `$x$`."), "{page}");
+    assert!(page.contains("<del>C2</del><ins>C12</ins>"), "{page}");
+    assert!(page.contains("@font-face{font-family:\"Denavit Maths\""));
+}
+
+#[test]
 fn exit_codes_of_a_class() {
     let folder = class("right", &[("a.md", RIGHT), ("b.md", RIGHT)]);
     assert_eq!(run(&folder, &[]).0, 0);

@@ -107,12 +107,13 @@ impl fmt::Display for NoExercise {
                     "{found} regular configurations with round numbers were found, {asked} are asked for"
                 )
             }
-            NoExercise::Redundant => write!(f, "the arm has endless configurations for a goal"),
+            NoExercise::Redundant => write!(f, "the arm has infinitely many configurations for a goal"),
             NoExercise::Unmarked => write!(f, "not all of its solution can be marked"),
             NoExercise::ManyJoints => write!(f, "equations of motion are for arms with at most three joints"),
             NoExercise::Masses => write!(
                 f,
-                "the arm has no masses with values; they are put at the ends of links in the standard convention alone"
+                "the arm has no masses with values; they are put at the ends of links in the standard convention alone, \
+                 where no fixed row stands behind a joint"
             ),
             NoExercise::Unprepared(why) => why.fmt(f),
             NoExercise::Large => write!(f, "the formulas are too large to be printed"),

@@ -28,10 +28,13 @@ pub(super) fn weighted(description: &Description) -> Result<Description, NoExerc
     if d.has_masses() {
         return Ok(d);
     }
-    if d.convention != Convention::Standard || d.rows.iter().any(|row| row.variable.is_none()) {
+    // Rows before the first joint are the base's; one behind a joint puts the link's end elsewhere than its frame.
+    let first = d.rows.iter().position(|row| row.variable.is_some()).unwrap_or(0);
+    let links = &mut d.rows[first..];
+    if d.convention != Convention::Standard || links.iter().any(|row| row.variable.is_none()) {
         return Err(NoExercise::Masses);
     }
-    for (k, row) in d.rows.iter_mut().enumerate() {
+    for (k, row) in links.iter_mut().enumerate() {
         let symbol = Symbol::new(&format!("m{}", k + 1));
         row.mass = Some(symbol.into());
         d.parameters.push(Parameter { symbol, value: None });

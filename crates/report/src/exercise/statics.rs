@@ -4,6 +4,7 @@ use super::NoExercise;
 use super::chosen::Chosen;
 use super::sheet::{Asked, Ground, Task, digits, quantity};
 use crate::document::{Block, Factor, Line, Math, Section};
+use crate::product::times;
 use crate::render::{named, too_long};
 use denavit::description::JointKind;
 use denavit::inverse::JointSpace;
@@ -29,7 +30,7 @@ pub(super) fn torques(ground: &Ground, chosen: &mut Chosen) -> Result<Asked, NoE
     let felt: Vec<usize> = (0..3).filter(|&r| rows[r].iter().any(|e| !e.is_zero())).collect();
     let joints = d.variables().len();
     let torque =
-        |j: usize| felt.iter().fold(Expr::int(0), |sum, &r| sum + Expr::symbol(FORCE[r]) * rows[r][j]);
+        |j: usize| felt.iter().fold(Expr::int(0), |sum, &r| sum + times(Expr::symbol(FORCE[r]), rows[r][j]));
     let names = felt.iter().fold(ground.names(), |names, &r| names.symbol(FORCE[r]));
     let names = (1..=joints).fold(names, |names, j| names.symbol(&format!("tau{j}")));
 

@@ -41,6 +41,11 @@ impl FigureOptions {
         }
     }
 
+    /// A figure that fills a slide: everything is named, in letters that are large beside it.
+    pub fn slide() -> Self {
+        FigureOptions { height: 250.0, ..FigureOptions::main() }
+    }
+
     /// A small picture without words, to stand beside others.
     pub fn small(width: f64, height: f64) -> Self {
         FigureOptions {

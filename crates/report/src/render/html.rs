@@ -23,8 +23,15 @@ pub fn page(document: &Document) -> String {
 }
 
 /// The font of formulas, WOFF2 in base64.
-pub(super) fn font() -> String {
+pub fn font() -> String {
     base64::engine::general_purpose::STANDARD.encode(FONT)
+}
+
+/// The font of formulas as a rule of a style sheet; it is called Denavit Maths.
+pub fn font_face(font: &str) -> String {
+    format!(
+        "@font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n"
+    )
 }
 
 /// All that stands before the body.
@@ -33,11 +40,11 @@ pub(super) fn head(document: &Document, font: &str, more: &str) -> String {
         "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"generator\" content=\"denavit {}\"/>\n<title>{}</title>\n<style>\n\
-         @font-face{{font-family:\"Denavit Maths\";src:url(data:font/woff2;base64,{font}) format(\"woff2\")}}\n\
-         {LOOK}{}{more}</style>\n</head>\n",
+         {}{LOOK}{}{more}</style>\n</head>\n",
         document.language.words().code(),
         env!("CARGO_PKG_VERSION"),
         escaped(&document.title),
+        font_face(font),
         style()
     )
 }

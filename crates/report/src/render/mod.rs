@@ -8,7 +8,10 @@ mod nested;
 pub mod slides;
 mod typst;
 
-pub use html::{math_aligned, math_display, page as html, page_with as html_with, words as html_words};
+pub use html::{
+    escaped, font, font_face, math_aligned, math_display, page as html, page_with as html_with,
+    words as html_words,
+};
 pub use latex::{fragment as latex_fragment, whole as latex};
 pub(crate) use layout::columns;
 pub use layout::{Named, formulas, is_wide, named, too_long};

@@ -3,7 +3,7 @@
 use super::setting::{ReportOptions, Setting, Topic};
 use super::{given, summary, table, workspace};
 use crate::document::{Block, Document, Line, Part, Section, Table, plain};
-use crate::figure::{FigureOptions, isometric};
+use crate::figure::{Arm, Bounds, FigureOptions, View, isometric};
 use crate::render::columns;
 use crate::words::{Glance, Heading, Tongue};
 use denavit::description::Description;
@@ -58,7 +58,7 @@ fn glance(all: &[Setting], language: Tongue) -> Section {
     };
     let mut section = Section::new(Vocabulary::new());
     section.push(Part::Table(Table {
-        caption: Line::new(words.beside_each_other()[0]),
+        caption: Line::new(words.beside_each_other(false)[0]),
         head: std::iter::once(Line::default())
             .chain(all.iter().map(|s| Line::new(s.description.name.clone())))
             .collect(),
@@ -70,18 +70,47 @@ fn glance(all: &[Setting], language: Tongue) -> Section {
 fn pictures(all: &[Setting], language: Tongue) -> Option<Section> {
     let words = language.words();
     let mut section = Section::new(Vocabulary::new());
-    section.heading(2, Line::new(words.heading(Heading::Arm)));
+    section.heading(2, Line::new(words.heading(Heading::Arms)));
     let width = WIDTH / columns(all.len()) as f64;
-    let drawn = all.iter().filter_map(|s| {
-        let name = Line::new(s.description.name.clone());
-        s.arm.as_ref().map(|arm| (isometric(arm, &FigureOptions::small(width, width.max(180.0))), name))
-    });
-    let drawn: Vec<_> = drawn.collect();
-    if drawn.is_empty() {
+    let arms: Vec<(&Arm, View, Line)> = all
+        .iter()
+        .filter_map(|s| Some((s.arm.as_ref()?, Line::new(s.description.name.clone()))))
+        .map(|(arm, name)| (arm, arm.view(), name))
+        .collect();
+    if arms.is_empty() {
         return None;
     }
-    section.push(Part::figures(words, drawn, Line::new(words.beside_each_other()[1])));
+    let common = one_scale(&arms.iter().map(|(arm, view, _)| arm.bounds(view)).collect::<Vec<_>>());
+    let drawn = arms.iter().enumerate().map(|(k, (arm, view, name))| {
+        let bounds = common.as_ref().map(|all| all[k]);
+        let small = FigureOptions::small(width, width.max(180.0));
+        (isometric(arm, &FigureOptions { view: Some(*view), bounds, ..small }), name.clone())
+    });
+    let caption = words.beside_each_other(common.is_some())[1];
+    section.push(Part::figures(words, drawn.collect(), Line::new(caption)));
     Some(section)
+}
+
+/// Robots that differ more in size are drawn each as large as its picture allows.
+const MOST: f64 = 4.0;
+
+/// Bounds that are equally wide and high around each of these, with what stands lowest at one height; nothing where one would be
+/// too small beside another.
+fn one_scale(all: &[Bounds]) -> Option<Vec<Bounds>> {
+    let extents: Vec<[f64; 2]> = all.iter().map(Bounds::extent).collect();
+    let largest = |e: &[f64; 2]| e[0].max(e[1]);
+    let sizes = || extents.iter().map(largest);
+    let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+    if all.len() < 2 || most > MOST * least {
+        return None;
+    }
+    let [width, height] = [0, 1].map(|k| extents.iter().map(|e| e[k]).fold(0.0, f64::max));
+    let around = |b: &Bounds| {
+        let middle = (b.min[0] + b.max[0]) / 2.0;
+        let min = [middle - width / 2.0, b.min[1]];
+        Bounds { min, max: [middle + width / 2.0, b.min[1] + height] }
+    };
+    Some(all.iter().map(around).collect())
 }
 
 /// A section of each robot, under one heading and its name.

@@ -172,6 +172,6 @@ fn pictures(s: &Setting, found: &[Solution]) -> Option<Part> {
     Some(Part::figures(
         s.words(),
         arms.iter().enumerate().map(picture).collect(),
-        Line::new(s.words().caption(Caption::Pictures)),
+        Line::new(s.words().caption(if found.len() == 1 { Caption::Picture } else { Caption::Pictures })),
     ))
 }

@@ -13,9 +13,10 @@ pub fn section(s: &Setting) -> Option<Section> {
     if let Some(assumed) = s.assumed() {
         section.paragraph(assumed);
     }
+    let look = if s.options.for_slides { FigureOptions::slide() } else { FigureOptions::main() };
     let caption = s.words().arm_caption(s.configuration(&s.q));
-    section.push(Part::figure(s.words(), isometric(arm, &FigureOptions::main()), caption));
+    section.push(Part::figure(s.words(), isometric(arm, &look), caption));
     let caption = Line::new(s.words().caption(Caption::Scheme));
-    section.push(Part::figure(s.words(), figure::scheme(arm, &FigureOptions::main()), caption));
+    section.push(Part::figure(s.words(), figure::scheme(arm, &look), caption));
     Some(section)
 }

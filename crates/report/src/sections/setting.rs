@@ -99,6 +99,8 @@ pub struct ReportOptions<'a> {
     pub pose: Option<Vec<f64>>,
     /// What was found in the document that the robot comes from.
     pub errata: Option<Errata<'a>>,
+    /// Whether figures are to fill slides.
+    pub for_slides: bool,
 }
 
 impl Default for ReportOptions<'_> {
@@ -112,6 +114,7 @@ impl Default for ReportOptions<'_> {
             conventions: vec![],
             pose: None,
             errata: None,
+            for_slides: false,
         }
     }
 }

@@ -49,6 +49,9 @@ pub trait Inverse {
     /// What is given, what is sought, and that the chain follows.
     fn given(&self, given: Given) -> Line;
 
+    /// Which columns of U are given, where not the whole pose is: the position, or the direction of the z axis (`has_axis`) with it.
+    fn given_columns(&self, has_axis: bool) -> &'static str;
+
     /// What the short names of the cosine and sine of `q` are, and of the cosine of a sum.
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line;
 

@@ -14,6 +14,8 @@ use denavit_symbolic::{Expr, Refusal as Unexpanded};
 pub enum Heading {
     /// The pictures of the arm.
     Arm,
+    /// The pictures of several arms.
+    Arms,
     /// The Denavit–Hartenberg table.
     Table,
     /// The link transforms.
@@ -83,6 +85,8 @@ pub enum Caption {
     Steps,
     /// Configurations with one pose.
     Configurations,
+    /// The picture of a single one.
+    Picture,
     /// Pictures of these configurations.
     Pictures,
     /// Pictures of singular configurations.
@@ -164,8 +168,8 @@ pub trait Report {
     /// The title of a document about several robots.
     fn compared(&self, robots: &[&str]) -> String;
 
-    /// The captions of the table and of the pictures in it.
-    fn beside_each_other(&self) -> [&'static str; 2];
+    /// The captions of the table and of the pictures in it, which have one scale or not.
+    fn beside_each_other(&self, have_one_scale: bool) -> [&'static str; 2];
 
     /// A heading.
     fn heading(&self, heading: Heading) -> String;

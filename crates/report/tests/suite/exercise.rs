@@ -212,3 +212,28 @@ fn sheets_say_what_is_given() {
     let refused = exercise(&robot("kuka-iiwa-7"), &options);
     assert!(matches!(refused, Err(NoExercise::Redundant)));
 }
+
+/// An arm whose base has a row of its own, here one that stands its plane upright, has masses at the ends of its links as any other.
+#[test]
+fn rows_of_the_base_carry_no_mass() {
+    let text = "name = \"upright\"\nconvention = \"standard\"\n[parameters]\nl1 = 0.5\nl2 = 0.4\n\
+                [[joints]]\nalpha = \"90 deg\"\n[[joints]]\ntheta = \"q1\"\na = \"l1\"\n[[joints]]\ntheta = \"q2\"\na = \"l2\"\n";
+    let made = |text: &str| {
+        let (d, _) = denavit::description::read_toml(text).expect("a robot");
+        let options =
+            ExerciseOptions { kind: ExerciseKind::Torques, seed: 3, count: 1, language: Tongue::English };
+        exercise(&d, &options)
+    };
+    let sheet = made(text).unwrap_or_else(|why| panic!("{why}"));
+    let solution = render::markdown(&sheet.solution, "f").text;
+    // Weight turns a joint by the horizontal way of what it carries.
+    assert!(
+        solution.contains("C_{12}") && solution.contains("m_{2}") && !solution.contains("m_{3}"),
+        "{solution}"
+    );
+    let all: f64 = sheet.rubric.items.iter().map(|i| i.points).sum();
+    assert!((earned(&sheet, &solution, Format::Markdown).points - all).abs() < 1e-9, "{solution}");
+    // Behind a joint a row puts the end of the link elsewhere.
+    let flange = format!("{text}[[joints]]\na = 0.1\n");
+    assert!(matches!(made(&flange), Err(NoExercise::Masses)));
+}

@@ -3,7 +3,7 @@
 use denavit::catalogue;
 use denavit_report::render::slides::{self, Pace};
 use denavit_report::words::Tongue;
-use denavit_report::{Document, ReportOptions, compared, render, report};
+use denavit_report::{Document, Part, ReportOptions, Topic, compared, render, report};
 
 fn document(name: &str, language: Tongue) -> Document {
     let robot = catalogue::robot(name).expect("in the catalogue");
@@ -84,4 +84,75 @@ fn several_robots_stand_in_one_table() {
         // The table of each, and what each reaches.
         assert_eq!(page.matches("<h3>").count(), 2 * robots.len(), "{language:?}");
     }
+}
+
+#[test]
+fn arms_beside_each_other_have_one_scale_unless_one_would_be_tiny() {
+    let pictures = |scale: &str| {
+        let small = catalogue::text("ur5").expect("in the catalogue");
+        let (large, _) = denavit::description::read_toml(small).expect("a robot");
+        let mut other = large.clone();
+        other.name = "other".into();
+        for name in ["d1", "a2", "a3", "d4", "d5", "d6"] {
+            let own = large.parameters.iter().find(|p| &*p.symbol.name() == name).and_then(|p| p.value);
+            let metres = own.expect("a length").as_number().expect("a number").to_f64();
+            let factor: f64 = scale.parse().expect("a number");
+            other.set(name, &format!("{}", metres * factor)).expect("a value");
+        }
+        let options = ReportOptions { topics: vec![Topic::Figures], ..ReportOptions::default() };
+        let document = compared(&[large, other], &options);
+        let parts = document.sections.into_iter().flat_map(|s| s.parts);
+        let mut figures = parts.filter_map(|part| match part {
+            Part::Figure(figure) => Some(figure),
+            _ => None,
+        });
+        let figure = figures.next().expect("pictures");
+        let caption = format!("{:?}", figure.caption);
+        (caption, figure.pictures.iter().map(|(d, _)| (d.height, reach(d))).collect::<Vec<_>>())
+    };
+    let (caption, drawn) = pictures("0.5");
+    assert!(caption.contains("at one scale"), "{caption}");
+    assert_eq!(drawn[0].0, drawn[1].0);
+    // Half the arm is half as high.
+    assert!((drawn[0].1 / drawn[1].1 - 2.0).abs() < 0.1, "{drawn:?}");
+    let (caption, drawn) = pictures("0.05");
+    assert!(caption.contains("as its picture allows"), "{caption}");
+    assert!((drawn[0].1 / drawn[1].1 - 1.0).abs() < 0.1, "{drawn:?}");
+}
+
+/// How far apart the highest and the lowest point of a drawing are.
+fn reach(drawing: &denavit_report::figure::Drawing) -> f64 {
+    let text = denavit_report::figure::svg::svg(drawing, denavit_report::figure::svg::Palette::Page, "f");
+    let numbers = |part: &str| -> Vec<f64> {
+        part.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+            .filter_map(|n| n.parse().ok())
+            .collect()
+    };
+    let paths = text.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    let heights: Vec<f64> = paths
+        .flat_map(|d| d.split('M').skip(1).map(str::to_string).collect::<Vec<_>>())
+        .filter(|line| !line.contains('H'))
+        .filter_map(|line| {
+            numbers(line.split(['L', 'C', 'A', 'Z']).next().unwrap_or_default()).get(1).copied()
+        })
+        .collect();
+    heights.iter().copied().fold(f64::MIN, f64::max) - heights.iter().copied().fold(f64::MAX, f64::min)
+}
+
+#[test]
+fn figures_fill_their_slides() {
+    let robot = catalogue::robot("ur5").expect("in the catalogue");
+    let options =
+        ReportOptions { for_slides: true, topics: vec![Topic::Figures], ..ReportOptions::default() };
+    let document = report(&robot, &options);
+    let figures = document.sections.iter().flat_map(|s| &s.parts).filter_map(|part| match part {
+        Part::Figure(figure) => Some(&figure.pictures[0].0),
+        _ => None,
+    });
+    let figures: Vec<_> = figures.collect();
+    assert_eq!(figures.len(), 2);
+    // Wider than high, as the room below a heading is; letters are the larger for it.
+    assert!(figures.iter().all(|d| d.height <= 260.0 && d.width > 1.5 * d.height));
+    let talk = slides::html(&document, Pace::Steps);
+    assert_eq!(talk.matches("<div class=\"body filled\">\n<div class=\"step picture\">").count(), 2);
 }

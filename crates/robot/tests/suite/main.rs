@@ -7,6 +7,7 @@ mod coupled;
 mod description;
 mod description_bytes;
 mod description_counted;
+mod description_said;
 mod description_tables;
 mod documents_inverse;
 mod documents_jacobian;

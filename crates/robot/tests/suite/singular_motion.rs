@@ -287,3 +287,40 @@ fn an_arm_that_is_singular_everywhere() {
     // The arm straight: one of the places that the first list means.
     assert!(rank(&[0.3, 0.4, 0.0, 0.0, 0.7, 0.2]) < 5);
 }
+
+/// In a plane that stands upright: what is lost is the way along the stretched arm, not the way out of the plane, which is never had.
+#[test]
+fn what_is_never_had_is_not_lost() {
+    let text = "convention = \"standard\"\n[parameters]\nl1 = 0.5\nl2 = 0.4\n[[joints]]\nalpha = \"90 deg\"\n\
+                [[joints]]\ntheta = \"q1\"\na = \"l1\"\n[[joints]]\ntheta = \"q2\"\na = \"l2\"\n";
+    let d = read_toml(text).expect("a robot").0;
+    let found = Singularities::of_position(&d, Reference::Tool).expect("short");
+    let [stretched] = &found.common[..] else { panic!("{found:#?}") };
+    let said = stretched.example.as_ref().expect("an example");
+    assert_eq!(said.lost, [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]], "{said:?}");
+    let robot = Robot::numeric(&d).expect("values");
+    let view = found.jacobian.view;
+    let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector([0.0; 3]) };
+    let along =
+        |q: [f64; 2]| geometric(&robot, &q, &view).columns.iter().map(|c| c[0].abs()).fold(0.0, f64::max);
+    assert!(along([0.4, 0.0]) < 1e-12 && along([0.4, 0.7]) > 0.1);
+}
+
+/// Seven joints, with the elbow stretched: axes 3 and 5 come to lie on one line, and the way along the arm is lost.
+#[test]
+fn axes_on_one_line_of_an_arm_with_a_joint_too_many() {
+    let d = robot("kuka-iiwa-14");
+    let found = Singularities::derive(&d, Reference::Tool).expect("short");
+    let [stretched] = &found.common[..] else { panic!("{:?}", found.common) };
+    let said = stretched.example.as_ref().expect("an example");
+    assert_eq!(said.place, Place::OneLine(2, 4));
+    let arm = Robot::numeric(&d).expect("values");
+    let size = arm.reach();
+    let near: Vec<f64> = vec![0.3, 0.7, 1.1, 0.2, 0.8, 0.9, 0.4];
+    let q = singular_configuration(&d, stretched.factor, &[stretched.factor], &near).expect("stretched");
+    let view = found.jacobian.view;
+    let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector([0.0; 3]) };
+    assert_eq!(fault((&arm, &view), &q, size, said), None);
+    let along = |q: &[f64]| svd(motions(&arm, q, size)).values.get(5).copied().unwrap_or(0.0);
+    assert!(along(&q) < 1e-8 && along(&near) > 1e-4);
+}

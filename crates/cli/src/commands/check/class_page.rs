@@ -1,7 +1,7 @@
 //! The class as a page: the table, the slips, and each document with its marks.
 
 use super::class::{Class, Held};
-use super::html::{STYLE, escaped};
+use super::html::{escaped, prose, style};
 use super::sheet::earned;
 use crate::terminal::decimals;
 
@@ -19,7 +19,8 @@ pub fn page(class: &Class) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>{STYLE}{TABLES}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+         <title>{title}</title>\n<style>{}{TABLES}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n",
+        style()
     );
     out += "<div class=\"scroll\"><table>\n<tr><th>student</th>";
     out += &class
@@ -41,9 +42,9 @@ pub fn page(class: &Class) -> String {
         out += "<h2>Slips</h2>\n<table>\n<tr><th class=\"number\">students</th><th>claim</th><th>slip</th><th>who</th></tr>\n";
         for s in slips {
             out += &format!(
-                "<tr><td class=\"number\">{}</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
+                "<tr><td class=\"number\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 s.students.len(),
-                escaped(s.claim),
+                prose(s.claim),
                 escaped(s.slip),
                 escaped(&s.students.join(", "))
             );
@@ -78,7 +79,7 @@ fn items(class: &Class, held: &Held) -> String {
             escaped(&item.name),
             earned(mark.points, mark.open),
             decimals(item.points, 2),
-            escaped(remark)
+            prose(remark)
         );
     }
     out + "</table>\n"

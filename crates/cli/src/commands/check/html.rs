@@ -1,14 +1,17 @@
-//! The document with its slips marked, as a page of its own.
+//! The document with its slips marked, as a page of its own. Formulas in LaTeX are typeset; one that cannot be stands as it was written.
 
 use super::Document;
 use super::marked::{Piece, pieces};
 use super::terminal::at;
 use crate::terminal::words;
 use denavit_check::{Claim, Entry, Finding, Patch, Standing};
+use denavit_reading::document::Format;
+use denavit_report::render::{font, font_face};
+use denavit_report::typeset::{Marks, Printed, printed, typeset};
 use std::fmt::Write;
 use std::ops::Range;
 
-pub const STYLE: &str = "
+const STYLE: &str = "
 :root { color-scheme: light dark; --good: #1a7f37; --bad: #c4262e; --doubt: #9a6700; --line: #8884; --card: #8881; }
 @media (prefers-color-scheme: dark) { :root { --good: #4ac26b; --bad: #ff7b72; --doubt: #d4a72c; } }
 body { max-width: 72rem; margin: 2rem auto; padding: 0 1rem; font: 16px/1.5 system-ui, sans-serif; }
@@ -26,9 +29,26 @@ aside.wrong { border-color: var(--bad); }
 aside.other { border-color: var(--doubt); }
 aside code { font: 12.5px/1.5 ui-monospace, monospace; overflow-wrap: anywhere; }
 aside p { margin: .2rem 0; }
+math { font-family: \"Denavit Maths\", \"STIX Two Math\", math; font-size: 1.15em; }
+.display { display: block; margin: .5rem 0; overflow-x: auto; white-space: normal; }
+math .equal, math .wrong, math .other { border-bottom: 2px solid; }
+math .equal { border-color: var(--good); }
+math .wrong { border-color: var(--bad); }
+math .other { border-color: var(--doubt); }
+math .fn { padding: 0 .13em; }
+math .bold { font-weight: bold; }
+math .del { color: var(--bad); text-decoration: line-through; border: 1px dashed; border-radius: 3px; padding: 0 .15em; }
+math .ins { color: var(--good); border: 1px solid; border-radius: 3px; padding: 0 .15em; margin-left: .15em; }
+mtable.lines mtd { text-align: left; padding: .15em .1em; }
+mtable.lines mtd:first-child { text-align: right; }
 .faint { opacity: .7; font-size: .9em; }
 ul.legend { list-style: none; padding: 0; display: flex; gap: 1.5rem; flex-wrap: wrap; }
 ";
+
+/// What stands in the `style` element: the font of formulas, and looks.
+pub fn style() -> String {
+    font_face(&font()) + STYLE
+}
 
 /// The page.
 pub fn page(document: &Document) -> String {
@@ -38,7 +58,8 @@ pub fn page(document: &Document) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{name}, checked</title>\n<style>{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{name}</h1>\n"
+         <title>{name}, checked</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n<h1>{name}</h1>\n",
+        style()
     );
     let robots: Vec<String> = checked.robots.iter().take(1).map(|r| escaped(&r.name)).collect();
     let _ = writeln!(out, "<p>Held against {}: {} claims.</p>", robots.concat(), checked.claims.len());
@@ -116,7 +137,26 @@ pub fn body(document: &Document) -> String {
         notes.push((end, format!("<aside class=\"other\"><p>not judged: {why}</p></aside>\n")));
     }
     marks.sort_by_key(|m| (m.span.start, m.span.end));
+    let formulas = typeset_formulas(document, &marks);
+    // A note about a part of a formula stands below all of it.
+    for note in &mut notes {
+        if let Some((f, _)) =
+            formulas.iter().find(|(f, _)| (f.outer.start + 1..=f.outer.end).contains(&note.0))
+        {
+            note.0 = text[f.outer.end..].find('\n').map_or(text.len(), |n| f.outer.end + n + 1);
+        }
+    }
     notes.sort_by_key(|n| n.0);
+    let is_apart =
+        |m: &Marked| !formulas.iter().any(|(f, _)| m.span.start < f.outer.end && f.outer.start < m.span.end);
+    marks.retain(is_apart);
+    let marked = marks.into_iter().map(|m| {
+        let shown = changed(text, &m.span, &m.patches);
+        (m.span, format!("<mark class=\"{}\">{shown}</mark>", m.class))
+    });
+    let mut parts: Vec<(Range<usize>, String)> =
+        formulas.into_iter().map(|(f, shown)| (f.outer, shown)).chain(marked).collect();
+    parts.sort_by_key(|p| (p.0.start, p.0.end));
     let mut notes = notes.into_iter().peekable();
     let mut out = String::from("<pre>");
     let mut at = 0;
@@ -132,17 +172,62 @@ pub fn body(document: &Document) -> String {
         out.push_str(&escaped(text.get(*at..to).unwrap_or_default()));
         *at = to;
     };
-    for mark in marks {
-        if mark.span.start < at || mark.span.is_empty() {
+    for (span, shown) in parts {
+        if span.start < at || span.is_empty() {
             continue;
         }
-        plain(&mut out, mark.span.start, &mut at, &mut notes);
-        let _ =
-            write!(out, "<mark class=\"{}\">{}</mark>", mark.class, changed(text, &mark.span, &mark.patches));
-        at = mark.span.end;
+        plain(&mut out, span.start, &mut at, &mut notes);
+        out.push_str(&shown);
+        at = span.end;
     }
     plain(&mut out, text.len(), &mut at, &mut notes);
+    // A formula on lines of its own brings its lines with it.
+    out = out
+        .replace("\n<span class=\"display\">", "<span class=\"display\">")
+        .replace("</math></span>\n", "</math></span>");
     out + "</pre>\n"
+}
+
+/// The formulas of the document that can be typeset, with what is marked in them.
+fn typeset_formulas(document: &Document, marks: &[Marked]) -> Vec<(Printed, String)> {
+    let text = document.text;
+    let is_program = super::language_of(document.name).is_some();
+    if is_program || !matches!(Format::of(document.name, text), Format::Markdown | Format::Latex) {
+        return vec![];
+    }
+    let shown = |f: Printed| {
+        let set = typeset_part(text, &f.inner, marks)?;
+        let source = escaped(text[f.inner.clone()].trim());
+        let shown = match f.is_display {
+            true => {
+                let look = "display=\"block\" displaystyle=\"true\"";
+                format!("<span class=\"display\"><math {look} alttext=\"{source}\">{set}</math></span>")
+            }
+            false => format!("<math alttext=\"{source}\">{set}</math>"),
+        };
+        Some((f, shown))
+    };
+    printed(text).into_iter().filter_map(shown).collect()
+}
+
+/// A formula, or a part of one, with what is marked in it.
+fn typeset_part(text: &str, span: &Range<usize>, marks: &[Marked]) -> Option<String> {
+    let meets = |r: &Range<usize>| r.start < span.end && span.start < r.end && !r.is_empty();
+    let clipped = |r: &Range<usize>| {
+        r.start.clamp(span.start, span.end) - span.start..r.end.clamp(span.start, span.end) - span.start
+    };
+    let within: Vec<&Marked> = marks.iter().filter(|m| meets(&m.span)).collect();
+    let mut changes: Vec<(Range<usize>, String)> = vec![];
+    for patch in within.iter().flat_map(|m| &m.patches) {
+        let change = (clipped(&patch.span), patch.now.clone());
+        // Two claims may have a formula in common, and its slip.
+        if !changes.contains(&change) {
+            changes.push(change);
+        }
+    }
+    changes.sort_by_key(|c| (c.0.start, c.0.end));
+    let classes = within.iter().map(|m| (clipped(&m.span), m.class)).collect();
+    typeset(text.get(span.clone())?, &Marks { classes, changes })
 }
 
 fn changed(text: &str, span: &Range<usize>, patches: &[Patch]) -> String {
@@ -172,15 +257,15 @@ fn note(document: &Document, claim: &Claim) -> Option<String> {
     if let Some(instead) = claim.instead {
         let _ = write!(
             out,
-            "<p><strong><code>{}</code></strong>: what is printed is {}</p>",
-            escaped(&claim.name),
+            "<p><strong>{}</strong>: what is printed is {}</p>",
+            prose(&claim.name),
             escaped(&words().instead(instead))
         );
     }
     let is_told = |e: &&Entry| e.finding.standing() != Standing::Equal && claim.instead.is_none();
     for entry in claim.entries.iter().filter(is_told) {
-        let name = escaped(&words().entry(&claim.name, entry.place));
-        let _ = write!(out, "<p><strong><code>{name}</code></strong>: {}</p>", finding(document, entry));
+        let name = prose(&words().entry(&claim.name, entry.place));
+        let _ = write!(out, "<p><strong>{name}</strong>: {}</p>", finding(document, entry));
     }
     claim.remarks.iter().for_each(|r| {
         let _ = write!(out, "<p>{}</p>", escaped(&words().remarked(r)));
@@ -217,11 +302,8 @@ fn finding(document: &Document, entry: &Entry) -> String {
             let patches = wrong.slip.as_ref().map_or(&[][..], |s| &s.patches);
             let mut out = match &wrong.slip {
                 Some(slip) => {
-                    format!(
-                        "{}: <code>{}</code>",
-                        escaped(&words().slip(&slip.kind)),
-                        changed(document.text, &entry.span, patches)
-                    )
+                    let kind = escaped(&words().slip(&slip.kind));
+                    format!("{kind}: {}", mended(document, &entry.span, patches))
                 }
                 None => "wrong".into(),
             };
@@ -240,6 +322,34 @@ fn finding(document: &Document, entry: &Entry) -> String {
             out
         }
     }
+}
+
+/// A part of the document with its slip, typeset where it stands in a formula of LaTeX.
+fn mended(document: &Document, span: &Range<usize>, patches: &[Patch]) -> String {
+    let marked = Marked { span: span.clone(), class: "plain", patches: patches.to_vec() };
+    let is_tex = document.text.get(span.clone()).is_some_and(|t| t.contains(['\\', '_', '^']))
+        && Format::of(document.name, document.text) != Format::Plain
+        && super::language_of(document.name).is_none();
+    let set = if is_tex { typeset_part(document.text, span, &[marked]) } else { None };
+    match set {
+        Some(set) => format!("<math>{set}</math>"),
+        None => format!("<code>{}</code>", changed(document.text, span, patches)),
+    }
+}
+
+/// Words with names of LaTeX in them, which are typeset.
+pub fn prose(text: &str) -> String {
+    let word = |word: &str| {
+        let bare = word.trim_end_matches([',', ';', ':', '.', ')']);
+        let has_index = bare.chars().nth(1).is_some_and(|c| matches!(c, '_' | '^'));
+        let is_name = bare.contains(['\\', '{']) || has_index;
+        let set = if is_name { typeset(bare, &Marks::default()) } else { None };
+        match set {
+            Some(set) => format!("<math>{set}</math>{}", escaped(&word[bare.len()..])),
+            None => escaped(word),
+        }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
 pub fn escaped(text: &str) -> String {

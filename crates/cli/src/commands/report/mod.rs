@@ -47,6 +47,7 @@ pub fn run(arguments: &ReportArguments) -> Result<(), Failure> {
         conventions: arguments.conventions.iter().map(|&c| c.into()).collect(),
         pose,
         errata,
+        for_slides: arguments.slides.is_some(),
     };
     let document = match &arguments.beside[..] {
         [] => report(&description, &options),

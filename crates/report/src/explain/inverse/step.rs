@@ -6,6 +6,7 @@ use super::prove::{Prover, identity};
 use super::reading::{Reading, negated};
 use crate::document::{Math, Proof, Sign};
 use crate::explained::{Bound, Case, Consequence, Explained, Kind, Remark, Source, Statement};
+use crate::product::times;
 use denavit::inverse::Label;
 use denavit::inverse::derivation::{Determinant, Elimination, Form, Norm, Origin, Row, Samples, Step};
 use denavit_symbolic::poly::{Monomial, Poly};
@@ -466,7 +467,7 @@ impl Context<'_> {
         for [a, b, c] in [[a1, b1, c1], [a2, b2, c2]] {
             done.form.push(Math::equation(a * cos + b * sin, c));
         }
-        let (mut x, mut y) = (b2 * c1 - b1 * c2, a1 * c2 - a2 * c1);
+        let (mut x, mut y) = (times(b2, c1) - times(b1, c2), times(a1, c2) - times(a2, c1));
         let mut delta = a1 * b2 - a2 * b1;
         let algebra = &self.reading.chain.algebra;
         let exact = algebra.times(&r1.a, &r2.b).minus(&algebra.times(&r2.a, &r1.b));
@@ -474,7 +475,9 @@ impl Context<'_> {
         if !general {
             let value = Samples::new(self.reading.chain, |_| None).values(&exact)[0];
             if value < 0.0 {
-                (x, y, delta) = (b1 * c2 - b2 * c1, a2 * c1 - a1 * c2, a2 * b1 - a1 * b2);
+                x = times(b1, c2) - times(b2, c1);
+                y = times(a2, c1) - times(a1, c2);
+                delta = a2 * b1 - a1 * b2;
             }
             if determinant == Determinant::Perpendicular {
                 // The rows are (a, b) and ±(−b, a).

@@ -4,6 +4,7 @@ use super::Explanation;
 use crate::document::{Block, Branch, Factor, Line, Math, Sign};
 use crate::explained::{Explained, Statement};
 use crate::words::{Coefficients, Given, Wording};
+use denavit::inverse::Goal;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::readable::literals;
 use denavit_symbolic::vocabulary::Vocabulary;
@@ -148,6 +149,9 @@ fn setting(e: &Explanation, words: &dyn Wording, blocks: &mut Vec<Block>) {
     let mut rows: Vec<Vec<Expr>> = e.pose.chunks(4).map(<[Expr]>::to_vec).collect();
     rows.push([0, 0, 0, 1].map(Expr::int).to_vec());
     blocks.push(formula(Math::Matrix(Factor::named("U"), rows)));
+    if e.goal != Goal::Pose {
+        blocks.push(Block::Paragraph(Line::new(words.given_columns(e.goal == Goal::PositionAndAxis))));
+    }
     let names = e.names();
     if let Some(&q) = variables.iter().find(|q| names.number_of(**q).is_some()) {
         // A cosine that is written out needs no words.

@@ -1,7 +1,7 @@
 //! Slides as one page of HTML that needs nothing else. Without its program all slides stand below each other.
 
 use super::{Pace, Slide, deck, place};
-use crate::document::{Document, Section};
+use crate::document::{Block, Document, Part, Section};
 use crate::render::html::{Writer, escaped, font, head, words};
 use std::fmt::Write;
 
@@ -46,9 +46,19 @@ fn one(slide: &Slide, writer: &mut Writer) {
         slide.under.as_ref().map_or_else(String::new, |u| format!(" <small>{}</small>", words(u, names)));
     let place = place(slide.place);
     let place = if place.is_empty() { place } else { format!(" <span class=\"part\">{place}</span>") };
+    let has_picture = |section: &Section| section.parts.iter().any(|p| matches!(p, Part::Figure(_)));
+    // A picture fills what the rest of its slide leaves; words alone stand beside it.
+    let is_words = |part: &Part| matches!(part, Part::Block(Block::Paragraph(_)) | Part::Figure(_));
+    let has_words = slide.steps.iter().map(|s| s.parts.len()).sum::<usize>() > 1;
+    let is_beside = slide.reminder.is_none() && slide.steps.iter().all(|s| s.parts.iter().all(is_words));
+    let filled = match slide.steps.iter().any(has_picture) {
+        true if is_beside && has_words => " filled beside-words",
+        true => " filled",
+        false => "",
+    };
     let _ = writeln!(
         writer.out,
-        "<section class=\"slide\">\n<h2>{}{under}{place}</h2>\n<div class=\"body\">",
+        "<section class=\"slide\">\n<h2>{}{under}{place}</h2>\n<div class=\"body{filled}\">",
         words(&slide.title, names)
     );
     let mut set = |class: &str, section: &Section| {
@@ -60,7 +70,7 @@ fn one(slide: &Slide, writer: &mut Writer) {
         set("reminder", section);
     }
     for step in &slide.steps {
-        set("step", step);
+        set(if has_picture(step) { "step picture" } else { "step" }, step);
     }
     writer.out.push_str("</div>\n</section>\n");
 }

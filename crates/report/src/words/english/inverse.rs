@@ -55,6 +55,13 @@ impl Inverse for English {
         }
     }
 
+    fn given_columns(&self, has_axis: bool) -> &'static str {
+        match has_axis {
+            true => "Of U the third and fourth columns alone are given; the others follow from the solution.",
+            false => "Of U the fourth column alone is given; the others follow from the solution.",
+        }
+    }
+
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" and ").math(q.sin());
         let line = line.text(" are cosine and sine of ").math(q);
@@ -104,7 +111,8 @@ impl Inverse for English {
         };
         let of = match (&component.of[..], component.is_point) {
             ([], _) => String::new(),
-            (axes, false) => format!(" of the direction of axis {}", numbers(axes)),
+            ([axis], false) => format!(" of the direction of axis {}", axis + 1),
+            (axes, false) => format!(" of the direction of axes {}", numbers(axes)),
             ([axis], true) => format!(" of a point on axis {}", axis + 1),
             (axes, true) => format!(" of a point on axes {}", numbers(axes)),
         };

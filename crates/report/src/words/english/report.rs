@@ -25,13 +25,18 @@ impl Report for English {
         format!("{} compared", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }
 
-    fn beside_each_other(&self) -> [&'static str; 2] {
-        ["The robots at a glance.", "The robots, each as large as its picture allows."]
+    fn beside_each_other(&self, have_one_scale: bool) -> [&'static str; 2] {
+        let pictures = match have_one_scale {
+            true => "The robots at one scale.",
+            false => "The robots, each as large as its picture allows.",
+        };
+        ["The robots at a glance.", pictures]
     }
 
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "The arm",
+            Heading::Arms => "The arms",
             Heading::Table => "Denavit–Hartenberg table",
             Heading::Links => "Link transforms",
             Heading::Algorithm => "Algorithm",
@@ -80,6 +85,7 @@ impl Report for English {
             }
             Caption::Steps => "The steps of the forward algorithm in numbers; lengths in metres.",
             Caption::Configurations => "All configurations with this pose.",
+            Caption::Picture => "The configuration of the table.",
             Caption::Pictures => "The configurations of the table, all with the same pose of the tool.",
             Caption::Singular => "A configuration at each singularity; the axes that make it one are marked.",
             Caption::Scheme => {
@@ -392,6 +398,7 @@ impl Report for English {
             text += &format!(" and {families} (marked *: one member each is shown)");
         }
         text + match is_complete {
+            true if isolated + families == 1 => "; there is no other. It was put into the chain again.",
             true => "; these are all. Each was put into the chain again.",
             false => "; others may exist.",
         }

@@ -55,6 +55,15 @@ impl Inverse for French {
         })
     }
 
+    fn given_columns(&self, has_axis: bool) -> &'static str {
+        match has_axis {
+            true => {
+                "De U, seules les troisième et quatrième colonnes sont données ; les autres découlent de la solution."
+            }
+            false => "De U, seule la quatrième colonne est donnée ; les autres découlent de la solution.",
+        }
+    }
+
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" et ").math(q.sin());
         let line = line.text(" sont le cosinus et le sinus de ").math(q);

@@ -25,13 +25,18 @@ impl Report for French {
         say!("Comparaison : {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }
 
-    fn beside_each_other(&self) -> [&'static str; 2] {
-        ["Les robots en bref.", "Les robots, chacun aussi grand que son image le permet."]
+    fn beside_each_other(&self, have_one_scale: bool) -> [&'static str; 2] {
+        let pictures = match have_one_scale {
+            true => "Les robots à la même échelle.",
+            false => "Les robots, chacun aussi grand que son image le permet.",
+        };
+        ["Les robots en bref.", pictures]
     }
 
     fn heading(&self, heading: Heading) -> String {
         printed(match heading {
             Heading::Arm => "Le bras",
+            Heading::Arms => "Les bras",
             Heading::Table => "Paramètres de Denavit–Hartenberg",
             Heading::Links => "Matrices de passage",
             Heading::Algorithm => "Algorithme",
@@ -79,6 +84,7 @@ impl Report for French {
             }
             Caption::Steps => "Les étapes de l'algorithme direct en nombres ; longueurs en mètres.",
             Caption::Configurations => "Toutes les configurations qui donnent cette pose.",
+            Caption::Picture => "La configuration du tableau.",
             Caption::Pictures => "Les configurations du tableau, toutes avec la même pose de l'outil.",
             Caption::Singular => "Une configuration à chaque singularité ; les axes en cause sont marqués.",
             Caption::Scheme => "Schéma cinématique : axes des articulations, variables et longueurs.",
@@ -401,6 +407,9 @@ impl Report for French {
             text += &format!(" et {families} (marquées * : un membre de chacune est montré)");
         }
         text += match is_complete {
+            true if isolated + families == 1 => {
+                " ; il n'y en a pas d'autre. Elle a été reportée dans la chaîne."
+            }
             true => " ; il n'y en a pas d'autres. Chacune a été reportée dans la chaîne.",
             false => " ; il peut en exister d'autres.",
         };

@@ -57,6 +57,15 @@ impl Inverse for German {
         }
     }
 
+    fn given_columns(&self, has_axis: bool) -> &'static str {
+        match has_axis {
+            true => {
+                "Von U sind nur die dritte und die vierte Spalte gegeben; die anderen folgen aus der Lösung."
+            }
+            false => "Von U ist nur die vierte Spalte gegeben; die anderen folgen aus der Lösung.",
+        }
+    }
+
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" und ").math(q.sin());
         let line = line.text(" sind Kosinus und Sinus von ").math(q);

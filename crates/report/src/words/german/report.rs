@@ -25,13 +25,18 @@ impl Report for German {
         format!("{} im Vergleich", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }
 
-    fn beside_each_other(&self) -> [&'static str; 2] {
-        ["Die Roboter auf einen Blick.", "Die Roboter, jeder so groß, wie es sein Bild erlaubt."]
+    fn beside_each_other(&self, have_one_scale: bool) -> [&'static str; 2] {
+        let pictures = match have_one_scale {
+            true => "Die Roboter in einem gemeinsamen Maßstab.",
+            false => "Die Roboter, jeder so groß, wie es sein Bild erlaubt.",
+        };
+        ["Die Roboter auf einen Blick.", pictures]
     }
 
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "Der Arm",
+            Heading::Arms => "Die Arme",
             Heading::Table => "Denavit-Hartenberg-Parameter",
             Heading::Links => "Transformationsmatrizen",
             Heading::Algorithm => "Algorithmus",
@@ -80,6 +85,7 @@ impl Report for German {
             }
             Caption::Steps => "Die Schritte des Algorithmus in Zahlen; Längen in Metern.",
             Caption::Configurations => "Alle Stellungen mit dieser Pose.",
+            Caption::Picture => "Die Stellung der Tabelle.",
             Caption::Pictures => "Die Stellungen der Tabelle, alle mit derselben Pose des Werkzeugs.",
             Caption::Singular => {
                 "Zu jeder Singularität eine Stellung; die Achsen, auf die es ankommt, sind hervorgehoben."
@@ -408,6 +414,9 @@ impl Report for German {
             text += &format!(" und {families}");
         }
         text + match is_complete {
+            true if isolated + families == 1 => {
+                "; eine andere gibt es nicht. Sie wurde in die Kette eingesetzt."
+            }
             true => "; das sind alle. Jede wurde in die Kette eingesetzt.",
             false => "; es kann weitere geben.",
         }

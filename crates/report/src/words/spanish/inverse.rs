@@ -53,6 +53,15 @@ impl Inverse for Spanish {
         }
     }
 
+    fn given_columns(&self, has_axis: bool) -> &'static str {
+        match has_axis {
+            true => {
+                "De U solo están dadas la tercera y la cuarta columnas; las demás se siguen de la solución."
+            }
+            false => "De U solo está dada la cuarta columna; las demás se siguen de la solución.",
+        }
+    }
+
     fn short_names(&self, q: Expr, sum: Option<Expr>) -> Line {
         let line = Line::default().math(q.cos()).text(" y ").math(q.sin());
         let line = line.text(" son el coseno y el seno de ").math(q);

@@ -25,13 +25,18 @@ impl Report for Spanish {
         format!("Comparación: {}", self.listed(&robots.iter().map(ToString::to_string).collect::<Vec<_>>()))
     }
 
-    fn beside_each_other(&self) -> [&'static str; 2] {
-        ["Los robots de un vistazo.", "Los robots, cada uno tan grande como permite su imagen."]
+    fn beside_each_other(&self, have_one_scale: bool) -> [&'static str; 2] {
+        let pictures = match have_one_scale {
+            true => "Los robots a la misma escala.",
+            false => "Los robots, cada uno tan grande como permite su imagen.",
+        };
+        ["Los robots de un vistazo.", pictures]
     }
 
     fn heading(&self, heading: Heading) -> String {
         match heading {
             Heading::Arm => "El brazo",
+            Heading::Arms => "Los brazos",
             Heading::Table => "Parámetros de Denavit-Hartenberg",
             Heading::Links => "Matrices de transformación",
             Heading::Algorithm => "Algoritmo",
@@ -80,6 +85,7 @@ impl Report for Spanish {
             }
             Caption::Steps => "Los pasos del algoritmo en números; longitudes en metros.",
             Caption::Configurations => "Todas las configuraciones con esta pose.",
+            Caption::Picture => "La configuración de la tabla.",
             Caption::Pictures => "Las configuraciones de la tabla, todas con la misma pose de la herramienta.",
             Caption::Singular => {
                 "Una configuración en cada singularidad; los ejes que la causan están destacados."
@@ -402,6 +408,7 @@ impl Report for Spanish {
             text += &format!(" y {families}");
         }
         text + match is_complete {
+            true if isolated + families == 1 => "; no hay otra. Se ha sustituido en la cadena.",
             true => "; no hay más. Cada una se ha sustituido en la cadena.",
             false => "; puede haber otras.",
         }

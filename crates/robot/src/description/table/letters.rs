@@ -4,6 +4,7 @@ use super::TableOptions;
 use super::columns::{Column, Role, plain};
 use super::layout::Layout;
 use super::lines::Lines;
+use super::said::convention_said;
 use crate::description::Convention;
 use crate::description::diagnostic::{Diagnostics, nearest};
 
@@ -71,8 +72,9 @@ pub(super) fn columns(
     Some(columns)
 }
 
-/// The convention that is told, or that the columns force.
+/// The convention that is told by an option or a line, that the columns force, or that the text names in its words.
 pub(super) fn convention(
+    text: &str,
     layout: &Layout,
     columns: &[Column],
     lines: &Lines,
@@ -123,6 +125,10 @@ pub(super) fn convention(
             Some(Convention::Craig)
         }
         None => {
+            if let Some((convention, place)) = convention_said(text) {
+                out.note(place, format!("read as {convention}: the text says so"));
+                return Some(convention);
+            }
             let what = if has(Role::R) && has(Role::D) && !has(Role::A) {
                 "the convention is not said: θ, d, r, α are Khalil's letters, but others write r for the length along x"
             } else {

@@ -14,7 +14,8 @@
 //!
 //! **The convention is never guessed.** It is told, or it follows from the columns, and then a note says why:
 //! `α_{i-1}` and `a_{i-1}` mean that the row begins with the x axis of the frame before (craig, or with `r`
-//! khalil); γ and b occur with Khalil alone.
+//! khalil); γ and b occur with Khalil alone. Sentences tell it, too, in the languages of courses (`the table follows
+//! Craig's convention`), where the text names one convention only; a note says where.
 //!
 //! **The joint.** A σ column decides (0 revolute, 1 prismatic); else a column q that names the variable; else a
 //! star (`θ1*`); else the symbol: θᵢ, qᵢ or tᵢ in the θ cell of row i turns, dᵢ, rᵢ or qᵢ in the length along z
@@ -39,11 +40,13 @@ mod limits;
 mod lines;
 mod marks;
 mod read;
+mod said;
 mod told;
 mod values;
 mod write;
 
 pub use each::{PrintedGrid, PrintedRow, PrintedTable, grids, tables};
+pub use said::{convention_said, millimetres_said};
 pub use write::{write_table, write_tree_table};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Severity};

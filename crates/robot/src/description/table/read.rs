@@ -8,6 +8,7 @@ use super::layout::Layout;
 use super::letters::{Letters, check_letters, columns, convention, letters};
 use super::lines::{Around, Lines};
 use super::marks::{with_numbers, without_stars};
+use super::said::millimetres_said;
 use super::{TableOptions, limits, values};
 use crate::description::cell::{Place, Style, name_of, read_cell, variable_number};
 use crate::description::diagnostic::{Diagnostic, Diagnostics};
@@ -133,7 +134,7 @@ pub(super) fn description(
     let settled: Vec<&str> = settled.into_iter().filter(|s| s.0).map(|s| s.1).collect();
     lines.check(text, &around.directives, &settled, out);
     let tables = Tables { text, layouts, columns: &told_columns, lines, around, options };
-    if let Some(convention) = convention(first.0, first.1, lines, options, out) {
+    if let Some(convention) = convention(text, first.0, first.1, lines, options, out) {
         let letters = letters(first.0, first.1, convention, out)?;
         return Some(read_as(&letters, &tables, out));
     }
@@ -204,7 +205,9 @@ fn read_as(letters: &Letters, tables: &Tables, out: &mut Diagnostics) -> Reading
         },
         length: match options.lengths_in_millimetres {
             Some(millimetres) => unit_named(if millimetres { "mm" } else { "m" }),
-            None => told("lengths", Quantity::Length, lines, at, out),
+            None => {
+                told("lengths", Quantity::Length, lines, at, out).or_else(|| millimetres(text, lines, out))
+            }
         },
         decimal_comma: has_decimal_commas(layouts),
     };
@@ -312,6 +315,13 @@ fn told(key: &str, quantity: Quantity, lines: &Lines, at: usize, out: &mut Diagn
         out.error(line.span.clone(), format!("unknown unit of {key}")).hint(format!("{key}: {units}"));
     }
     unit
+}
+
+/// Millimetres, where no line tells the unit of lengths and the text says it in words.
+fn millimetres(text: &str, lines: &Lines, out: &mut Diagnostics) -> Option<Unit> {
+    let place = millimetres_said(text).filter(|_| lines.get("lengths", 0).is_none())?;
+    out.note(place, "lengths without a unit are read as millimetres: the text says so");
+    unit_named("mm")
 }
 
 /// Columns of unknown meaning, units that do not fit, tables that do not match.

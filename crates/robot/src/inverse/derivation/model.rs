@@ -491,7 +491,8 @@ fn rank(chain: &NormalChain, samples: &Samples, goal: Goal) -> usize {
 }
 
 /// What people call the branches: the first turning joint's are the shoulder's, those of the last three joints the
-/// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first.
+/// wrist's, those between the elbow's; joints of an arm that has fewer than five are an elbow's but for the first of more than
+/// three, or of three of which the others are parallel to each other.
 fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
     // Axes that follow others are nobody's shoulder; the others are counted by themselves.
     let axes = &chain.drivers.axes;
@@ -500,6 +501,13 @@ fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
     let turns: Vec<usize> = (0..n).filter(|&k| !slides(k)).collect();
     let ends_turning = n >= 5 && (n - 3..n).all(|k| !slides(k));
     let wrist = if ends_turning { n - if n == 5 { 2 } else { 3 } } else { n };
+    // Of three joints the first turns the plane of the others: it chooses on which side of its axis they are.
+    let group = |k: usize| match chain.axes[axes[k]].motion {
+        Motion::Turn { group, .. } => Some(group),
+        Motion::Slide => None,
+    };
+    let is_waist =
+        turns.len() == 3 && group(turns[0]) != group(turns[1]) && group(turns[1]) == group(turns[2]);
     // Three axes that meet, and nothing else.
     let is_wrist_alone = n == 3 && turns.len() == 3 && steps.iter().all(|s| s.degree == 0);
     let slides_next = |k: usize| k + 1 < n && slides(k + 1);
@@ -522,7 +530,7 @@ fn labels(chain: &NormalChain, steps: &[Step]) -> Vec<Option<Label>> {
                 Part::Reach
             } else if spans_wrist || is_wrist_alone {
                 Part::Wrist
-            } else if first == turns[0] && (turns.len() > 3 || matches!(step.form, Form::Line))
+            } else if first == turns[0] && (turns.len() > 3 || is_waist || matches!(step.form, Form::Line))
                 || turns.len() >= 7 && turns[..3].contains(&last)
                 // What carries a slide points the arm: there is no elbow.
                 || matches!(step.form, Form::Line) && slides_next(last)

@@ -105,15 +105,17 @@ pub struct Example {
     /// What is at rest then.
     pub still: Still,
     /// Twists that cannot be had, in the frame and at the point of the Jacobian: whatever the joints do, the sum of
-    /// products with the twist's components is 0.
+    /// products with the twist's components is 0. Directions in which the arm never moves are left out, and all where
+    /// other kinds are lost elsewhere on the singularity.
     pub lost: Vec<[f64; 6]>,
     /// How the axes lie that makes it singular.
     pub place: Place,
 }
 
 impl Example {
-    /// Whether the same happens at another: the same joints move, the same stands still, the same kind of twist is lost.
-    fn is_like(&self, other: &Self) -> bool {
+    /// What is the same here and at others: a place that differs is said to, motions of other joints and twists of other kinds are
+    /// left out.
+    fn everywhere(self, others: &[Self]) -> Self {
         let moving = |e: &Self| -> Vec<Vec<bool>> {
             e.free.iter().map(|f| f.iter().map(|x| *x != 0.0).collect()).collect()
         };
@@ -126,11 +128,19 @@ impl Example {
             };
             e.lost.iter().map(kind).collect()
         };
-        let is_one = self.free.len() == 1;
-        self.free.len() == other.free.len()
-            && self.still == other.still
-            && self.place == other.place
-            && (!is_one || moving(self) == moving(other) && kinds(self) == kinds(other))
+        let is_still = others.iter().all(|e| e.still == self.still && e.free.len() == self.free.len());
+        // Of several motions each basis is as good as another.
+        let moves_alike =
+            is_still && (self.free.len() != 1 || others.iter().all(|e| moving(e) == moving(&self)));
+        let loses_alike = others.iter().all(|e| kinds(e) == kinds(&self));
+        let places: Vec<&Place> = others.iter().chain([&self]).map(|e| &e.place).collect();
+        let place = match places.iter().all(|p| **p == self.place) {
+            true => self.place.clone(),
+            false => Place::shared(&places).unwrap_or(Place::Differs),
+        };
+        let is_one_place = place == self.place;
+        let free = if moves_alike && is_one_place { self.free } else { vec![] };
+        Example { place, free, lost: if loses_alike { self.lost } else { vec![] }, ..self }
     }
 }
 
@@ -215,15 +225,7 @@ impl Singularities {
                 let example = at(None).map(|found| {
                     let others: Vec<Example> =
                         finder.starts(OTHERS).iter().filter_map(|q| at(Some(q))).collect();
-                    if others.iter().all(|other| found.is_like(other)) {
-                        return found;
-                    }
-                    // Which joints move is not the same everywhere then.
-                    let places: Vec<&Place> = others.iter().chain([&found]).map(|e| &e.place).collect();
-                    match Place::shared(&places) {
-                        Some(place) => Example { place, free: vec![], ..found },
-                        None => Example { place: Place::Differs, ..found },
-                    }
+                    found.everywhere(&others)
                 });
                 Singularity { factor, power, zeros: zeros(factor), example }
             })
@@ -277,13 +279,20 @@ fn example(
     // The Jacobian is taken at an origin.
     let view = Viewpoint { axes: view.axes, body: view.body, at: view.at, offset: Vector::zero() };
     let whole_body = geometric(robot, &q, &view);
+    // Joints that do not move the body are free in every configuration: here, and anywhere else. Directions in which no joint
+    // ever moves it are not lost here.
+    let elsewhere: Vec<f64> = q.iter().enumerate().map(|(j, x)| x + 0.6 + 0.2 * j as f64).collect();
+    let there = geometric(robot, &elsewhere, &view);
+    let is_had = |&r: &usize| {
+        let least = if r < 3 { TURNS * length } else { TURNS };
+        [&whole_body, &there].iter().any(|at| at.columns.iter().any(|c| c[r].abs() > least))
+    };
+    let had: Vec<usize> = rows.iter().copied().filter(is_had).collect();
+    let rows = &had[..];
     let mut jacobian = whole_body.clone();
     for column in &mut jacobian.columns {
         (0..6).filter(|r| !rows.contains(r)).for_each(|r| column[r] = 0.0);
     }
-    // Joints that do not move the body are free in every configuration: here, and anywhere else.
-    let elsewhere: Vec<f64> = q.iter().enumerate().map(|(j, x)| x + 0.6 + 0.2 * j as f64).collect();
-    let there = geometric(robot, &elsewhere, &view);
     let moves =
         |&j: &usize| [&whole_body, &there].iter().any(|at| rows.iter().any(|&r| at.columns[j][r] != 0.0));
     let moving: Vec<usize> = (0..q.len()).filter(moves).collect();

@@ -90,8 +90,11 @@ impl Place {
                 None => Place::Lost,
                 Some(_) => {
                     let joints = moving(&free.concat(), q.len());
-                    let on = (still == Still::Point).then(|| on_axis(robot, body, q, &joints)).flatten();
-                    on.map_or(Place::SelfMotion { joints, still }, Place::PointOnAxis)
+                    let on = match still {
+                        Still::Point => on_axis(robot, body, q, &joints).map(Place::PointOnAxis),
+                        Still::Body => on_one_line(robot, q),
+                    };
+                    on.unwrap_or(Place::SelfMotion { joints, still })
                 }
             };
         };
@@ -187,6 +190,27 @@ fn line(robot: &Robot<f64>, body: Reference, q: &[f64], axes: &[Axis], size: f64
         if is_parallel { parallel.push(j) } else { meets.push(j) }
     }
     Some(Place::Line { meets, parallel })
+}
+
+/// Two axes on one line, of an arm with more joints than it needs: the only ones, and not so in every configuration.
+fn on_one_line(robot: &Robot<f64>, q: &[f64]) -> Option<Place> {
+    let near = TOUCH * robot.reach().max(1e-9);
+    let pairs = |q: &[f64]| -> Option<Vec<(usize, usize)>> {
+        let axes = axes(robot, q)?;
+        let all = (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j)));
+        let is_one = |&(i, j): &(usize, usize)| {
+            axes[i].turns
+                && axes[j].turns
+                && axes[i].z.cross(axes[j].z).norm() < TOUCH
+                && distance(axes[i].o, &axes[j]) < near
+        };
+        Some(all.filter(is_one).collect())
+    };
+    let elsewhere: Vec<f64> = q.iter().enumerate().map(|(j, x)| x + 0.6 + 0.2 * j as f64).collect();
+    match (&pairs(q)?[..], &pairs(&elsewhere)?[..]) {
+        (&[(i, j)], []) => Some(Place::OneLine(i, j)),
+        _ => None,
+    }
 }
 
 /// The axis, among those of some joints, on which the body's origin lies.
