@@ -20,7 +20,7 @@ const SITE: &str = "crates/web/page/dist";
 /// The same in one file, which opens from a disk.
 const SINGLE: &str = "crates/web/page/single/denavit.html";
 /// The engine in parts: what is needed at once, what solves poses, what derives, what reads what others wrote, what writes reports
-/// and source code, and what checks documents.
+/// and source code, and what checks documents and recordings.
 const ENGINE: [&str; 6] =
     ["denavit.wasm", "inverse.wasm", "derive.wasm", "read.wasm", "write.wasm", "check.wasm"];
 /// How many of them a page fetches before somebody opens a file, asks for a report or for source code, or checks a document.
@@ -94,12 +94,17 @@ const PARTS: [split::Part; 6] = [
     split::Part {
         exports: &["answer_check"],
         named: &[
+            "csv",
             "denavit_check",
             "denavit_reading",
+            "denavit_recording",
             "denavit_report::sections::errata",
             "denavit_report::words::check",
+            "denavit_tables",
             "denavit_web::answer_check",
             "denavit_web::checking",
+            "denavit_web::recorded",
+            "denavit_wire::recording",
         ],
     },
 ];

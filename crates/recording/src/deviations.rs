@@ -1,10 +1,11 @@
-//! How far the hand is off, row by row.
+//! How far the hand is off, row by row, and when.
 
 use crate::arm::{Arm, all};
 use crate::finding::Off;
 use crate::fixed::rows;
 use crate::recipe::Recipe;
-use crate::recording::{Recording, Roles};
+use crate::recording::{Recording, Roles, Said};
+use crate::times::seconds_by_step;
 use crate::turns::between;
 
 /// How far the recorded pose of the hand lies from that of the model in each row, with what a recipe says done to the columns:
@@ -27,4 +28,15 @@ pub fn deviations(recording: &Recording, roles: &Roles, recipe: &Recipe, own: &A
         });
     }
     out
+}
+
+/// The times of the rows since the first, in seconds; nothing where no column tells them, or they do not go on.
+pub fn seconds(recording: &Recording, roles: &Roles) -> Option<Vec<f64>> {
+    let column = &recording.columns[roles.time?];
+    let values = &column.values;
+    let [first, .., last] = values[..] else { return None };
+    let step = (last - first) / (values.len() as f64 - 1.0);
+    let unit = column.said.map_or_else(|| seconds_by_step(step, values), Said::si);
+    let goes_on = values.windows(2).all(|w| w[1] > w[0]);
+    goes_on.then(|| values.iter().map(|t| (t - first) * unit).collect())
 }

@@ -7,7 +7,8 @@ use crate::recording::{Column, Recording, Roles, Said};
 use denavit::geometry::Transform;
 
 /// A row with what a recipe says done to it.
-pub(crate) struct Row {
+#[derive(Clone, PartialEq, Debug)]
+pub struct Row {
     /// Its number, from 0.
     pub row: usize,
     /// The model's joints.
@@ -18,7 +19,7 @@ pub(crate) struct Row {
 
 /// The rows, and the numbers of those that are left out: those that the recipe leaves out, those in which a number is missing,
 /// and those at an end for which a delay leaves no joints. Nothing where a column of the recipe is not there.
-pub(crate) fn rows(recording: &Recording, roles: &Roles, recipe: &Recipe) -> Option<(Vec<Row>, Vec<usize>)> {
+pub fn rows(recording: &Recording, roles: &Roles, recipe: &Recipe) -> Option<(Vec<Row>, Vec<usize>)> {
     let find = |name: &String| recording.columns.iter().position(|c| c.name == *name);
     let unwrapped_column = |j: &JointColumn| {
         find(&j.column).map(|c| unwrapped(&recording.columns[c].values, unit_of(recording, c, j.turn)))

@@ -41,6 +41,21 @@ impl Said {
         matches!(self, Said::Seconds | Said::Milliseconds | Said::Microseconds | Said::Nanoseconds)
     }
 
+    /// As a header says it.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Said::Radians => "rad",
+            Said::Degrees => "deg",
+            Said::Metres => "m",
+            Said::Centimetres => "cm",
+            Said::Millimetres => "mm",
+            Said::Seconds => "s",
+            Said::Milliseconds => "ms",
+            Said::Microseconds => "us",
+            Said::Nanoseconds => "ns",
+        }
+    }
+
     /// By the text between the brackets of a header.
     pub fn named(text: &str) -> Option<Self> {
         Some(match text.trim().to_lowercase().as_str() {
@@ -67,6 +82,18 @@ pub struct Column {
     pub said: Option<Said>,
     /// Its numbers; not a number where one is missing.
     pub values: Vec<f64>,
+}
+
+impl Column {
+    /// With what its header says of its unit; a unit that is none stays in the name.
+    pub fn new(name: String, unit: Option<&str>, values: Vec<f64>) -> Self {
+        let said = unit.and_then(Said::named);
+        let name = match (unit, said) {
+            (Some(unit), None) => format!("{name}[{unit}]"),
+            _ => name,
+        };
+        Column { name, said, values }
+    }
 }
 
 /// A recording: columns of one length.

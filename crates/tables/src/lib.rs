@@ -115,11 +115,7 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
             return Err(TableError::new("files in Parquet are not read by this build", hint));
         }
     };
-    for column in &mut table.columns {
-        if column.unit.is_none() {
-            (column.name, column.unit) = with_unit(&column.name);
-        }
-    }
+    table.split_units();
     if table.columns.is_empty() {
         let hint = "a recording has a column for each joint";
         let why = TableError::new("there is no column of numbers", hint);
@@ -129,6 +125,13 @@ pub fn read(bytes: &[u8], kind: Kind) -> Result<Table, TableError> {
 }
 
 impl Table {
+    /// Takes units out of the names of columns.
+    pub fn split_units(&mut self) {
+        for column in self.columns.iter_mut().filter(|c| c.unit.is_none()) {
+            (column.name, column.unit) = with_unit(&column.name);
+        }
+    }
+
     /// Puts the rows of another table behind its own; a column that one of them has not is not a number there.
     ///
     /// # Errors

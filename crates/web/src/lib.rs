@@ -19,6 +19,7 @@ mod model;
 mod motion;
 mod orientation;
 mod reach;
+mod recorded;
 mod refusal;
 mod robot_file;
 mod scene;
@@ -101,11 +102,12 @@ enum WrittenRequest {
     Figure(documents::Picture),
 }
 
-/// What can be asked about documents.
+/// What can be asked about documents and recordings.
 #[derive(Deserialize)]
 #[serde(tag = "op", content = "input", rename_all = "camelCase")]
 enum CheckRequest {
     Check { text: String, name: String },
+    Recording(recorded::Wish),
 }
 
 /// A robot file as it is written.
@@ -170,10 +172,11 @@ pub fn answer_written(request: &str) -> String {
     })
 }
 
-/// Answers a request about a document.
+/// Answers a request about a document or a recording.
 pub fn answer_check(request: &str) -> String {
     answered(request, |session, request| match request {
         CheckRequest::Check { text, name } => told(checking::check(session.robot()?, &text, &name)),
+        CheckRequest::Recording(wish) => told(recorded::recording(session.robot()?, wish)),
     })
 }
 

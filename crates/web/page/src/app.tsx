@@ -220,5 +220,5 @@ function DropZone() {
       removeEventListener("drop", drop);
     };
   }, []);
-  return isOver ? <div class="drop">Drop to open the robot</div> : null;
+  return isOver ? <div class="drop">Drop to open</div> : null;
 }

@@ -17,6 +17,7 @@ import "./path.mjs";
 import "./weight.mjs";
 import "./mobility.mjs";
 import "./check.mjs";
+import "./recorded.mjs";
 import "./share.mjs";
 import "./embed.mjs";
 import "./offline.mjs";

@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 
 const dist = new URL("../dist/", import.meta.url);
 const ENTRIES = ["answer", "answer_inverse", "answer_more", "answer_read", "answer_written", "answer_check"];
-const LATER = { solve: 1, formulas: 2, values: 2, singular: 2, workspace: 2, path: 2, fall: 2, read: 3, tree: 3, report: 4, code: 4, figure: 4, check: 5 };
+const LATER = { solve: 1, formulas: 2, values: 2, singular: 2, workspace: 2, path: 2, fall: 2, read: 3, tree: 3, report: 4, code: 4, figure: 4, check: 5, recording: 5 };
 const modules = ["denavit", "inverse", "derive", "read", "write", "check"].map((name) => new WebAssembly.Module(readFileSync(new URL(`${name}.wasm`, dist))));
 
 export class Engine {

@@ -65,7 +65,7 @@ scenario("a saved robot is opened again, by the button and dropped, with its err
     return data;
   }, wrong);
   await page.dispatchEvent("main", "dragover", { dataTransfer: drop });
-  await page.getByText("Drop to open the robot").waitFor();
+  await page.getByText("Drop to open").waitFor();
   await page.dispatchEvent("main", "drop", { dataTransfer: drop });
   const mark = page.locator('[aria-invalid="true"], dialog [role=alert]').first();
   await mark.waitFor();

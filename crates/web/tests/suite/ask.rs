@@ -11,7 +11,7 @@ pub fn ask(op: &str, input: Value) -> Value {
         "solve" => denavit_web::answer_inverse(&request),
         "read" | "tree" => denavit_web::answer_read(&request),
         "report" | "code" | "figure" => denavit_web::answer_written(&request),
-        "check" => denavit_web::answer_check(&request),
+        "check" | "recording" => denavit_web::answer_check(&request),
         _ => denavit_web::answer(&request),
     };
     serde_json::from_str(&text).expect("an answer is JSON")

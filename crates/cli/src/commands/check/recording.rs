@@ -6,7 +6,7 @@ use crate::failure::{Failure, without_values};
 use crate::load;
 use crate::terminal::note;
 use denavit_recording::words::{self, Names};
-use denavit_recording::{Arm, Column, Held, HoldOptions, Recording, Roles, Said, Slip, Unseen, fixed, hold};
+use denavit_recording::{Arm, Column, Held, HoldOptions, Recording, Roles, Slip, Unseen, fixed, hold};
 use denavit_tables::{Kind, Table};
 use denavit_wire::recording as wire;
 use std::fs;
@@ -161,20 +161,9 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
 /// Writes the recording with all of it undone.
 fn fix(file: &Path, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm) -> Result<(), Failure> {
     let (fixed, left) = fixed(recording, roles, &held.recipe, arm);
-    let unit = |s: Said| match s {
-        Said::Radians => "rad",
-        Said::Degrees => "deg",
-        Said::Metres => "m",
-        Said::Centimetres => "cm",
-        Said::Millimetres => "mm",
-        Said::Seconds => "s",
-        Said::Milliseconds => "ms",
-        Said::Microseconds => "us",
-        Said::Nanoseconds => "ns",
-    };
     let column = |c: Column| denavit_tables::Column {
         name: c.name,
-        unit: c.said.map(|s| unit(s).to_string()),
+        unit: c.said.map(|s| s.symbol().to_string()),
         values: c.values,
     };
     let columns: Vec<_> = fixed.columns.into_iter().map(column).collect();
@@ -220,13 +209,7 @@ pub fn write_whole(file: &Path, text: &str) -> Result<(), Failure> {
 
 /// A column with what its header says.
 pub fn column(c: denavit_tables::Column) -> Column {
-    let said = c.unit.as_deref().and_then(Said::named);
-    // A unit that is none stays in the name.
-    let name = match (&c.unit, said) {
-        (Some(unit), None) => format!("{}[{unit}]", c.name),
-        _ => c.name,
-    };
-    Column { name, said, values: c.values }
+    Column::new(c.name, c.unit.as_deref(), c.values)
 }
 
 /// Which columns are taken for what.

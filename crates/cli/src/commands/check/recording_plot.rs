@@ -1,6 +1,6 @@
 //! How far the hand is off over time, as the columns stand and with all of it undone, as SVG.
 
-use denavit_recording::{Arm, Held, Off, Recipe, Recording, Roles, deviations, seconds_by_step};
+use denavit_recording::{Arm, Held, Off, Recipe, Recording, Roles, deviations, seconds};
 use denavit_report::figure::drawing::Label;
 use denavit_report::figure::plot::{Curve, Panel, curves};
 use denavit_report::figure::svg::{Palette, svg};
@@ -13,7 +13,10 @@ pub fn picture(title: &str, recording: &Recording, roles: &Roles, held: &Held, a
     let mut as_they_stand = Recipe::plain(recording, roles, arm);
     // What the orientation is written in is no slip.
     as_they_stand.format = held.recipe.format;
-    let (times, across) = times(recording, roles);
+    let (times, across) = match seconds(recording, roles) {
+        Some(times) => (times, Label::symbol("t", "").and(Label::words(" / s"))),
+        None => ((0..held.rows[0]).map(|r| r as f64).collect(), Label::words("row")),
+    };
     let panels_of = |recipe: &Recipe, how: &str| {
         let off = deviations(recording, roles, recipe, arm);
         let panel = |what: &str, value: fn(&Off) -> f64| {
@@ -32,23 +35,6 @@ pub fn picture(title: &str, recording: &Recording, roles: &Roles, held: &Held, a
         }
     };
     svg(&curves(title, &across, &panels, &[]), Palette::File, "deviations")
-}
-
-/// Seconds since the first row where the time goes on, else the numbers of the rows.
-fn times(recording: &Recording, roles: &Roles) -> (Vec<f64>, Label) {
-    let rows = recording.columns.first().map_or(0, |c| c.values.len());
-    let told = roles.time.and_then(|c| {
-        let column = &recording.columns[c];
-        let values = &column.values;
-        let goes_on = values.len() > 1 && values.windows(2).all(|w| w[1] > w[0]);
-        let step = (values.last()? - values.first()?) / (rows as f64 - 1.0);
-        let unit = column.said.map_or_else(|| seconds_by_step(step, values), denavit_recording::Said::si);
-        goes_on.then(|| values.iter().map(|t| (t - values[0]) * unit).collect())
-    });
-    match told {
-        Some(times) => (times, Label::symbol("t", "").and(Label::words(" / s"))),
-        None => ((0..rows).map(|r| r as f64).collect(), Label::words("row")),
-    }
 }
 
 /// The points of a line: the farthest value of as many rows as share a point, none where there is none.

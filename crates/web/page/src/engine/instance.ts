@@ -4,7 +4,7 @@ import type { Input, Op, Output, Refused } from "./types.ts";
 
 /**
  * The parts of the engine: what is needed at once, what solves poses, what derives, what reads what others wrote, what writes reports
- * and source code, and what checks documents. Each is loaded behind all before it.
+ * and source code, and what checks documents and recordings. Each is loaded behind all before it.
  */
 export const PARTS = ["denavit.wasm", "inverse.wasm", "derive.wasm", "read.wasm", "write.wasm", "check.wasm"] as const;
 const ENTRIES = ["answer", "answer_inverse", "answer_more", "answer_read", "answer_written", "answer_check"] as const;
@@ -33,6 +33,7 @@ const LATER: Partial<Record<Op, number>> = {
   code: 4,
   figure: 4,
   check: 5,
+  recording: 5,
 };
 
 export function partOf(op: Op): number {

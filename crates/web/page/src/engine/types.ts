@@ -343,6 +343,33 @@ export interface PathEvent {
   kind: "singular" | "limit" | "within_limits" | "end";
 }
 
+/** A column of a recording; null where a number is missing. */
+export interface RecordedColumn {
+  name: string;
+  values: (number | null)[];
+}
+
+/** `recording`; `recorded` is that of `denavit check --json`, as far as it is used here. */
+export interface RecordedAnswer {
+  /** The recording with all of it undone, as CSV. */
+  fixed: string | null;
+  /** What was found, line by line. */
+  lines: string[];
+  recorded: {
+    findings: { kind: string; text: string }[];
+    recipe: string;
+    robot: string;
+    roles: { joints: string[]; position: string[]; rotation: string[]; time: string | null };
+    rows: number;
+    understood: boolean;
+    /** What no motion in it tells: a joint from 1, null for all of them. */
+    unseen: { joint: number | null }[];
+  };
+  remarks: string[];
+  /** With all of it undone, and, where something was found, as the columns stand; metres and radians that the hand is off. */
+  views: { path: Path; shift: number[]; turn: number[] }[];
+}
+
 /** `check`; the claims are those of `denavit check --json`. */
 export interface Checked {
   tally: Record<Verdict | "unjudged", number>;
@@ -466,6 +493,8 @@ export interface Requests {
   /** A path of an arm that falls from rest. */
   fall: [{ q: number[]; seconds: number }, Path];
   check: [{ text: string; name: string }, Checked];
+  /** The bytes of a file as characters, or columns out of one. */
+  recording: [{ name: string; latin1: string } | { name: string; columns: RecordedColumn[] }, RecordedAnswer];
   report: [{ format: "html" | "typst" | "latex" | "markdown"; language: "en" | "fr" | "de" | "es"; q: number[] }, { text: string; files?: { path: string; text: string }[] }];
   code: [{ language: "rust" | "c" | "python" | "matlab" | "javascript" | "cuda" | "ikfast"; name?: string }, { files: { path: string; text: string }[]; words: string; test: string }];
   tree: [TreeWanted, TreeTaken];

@@ -1,4 +1,4 @@
-// Formulas that somebody printed, held against the robot.
+// Formulas that somebody printed, and motion that was recorded, held against the robot.
 
 import { signal } from "@preact/signals";
 import { useMemo, useRef, useState } from "preact/hooks";
@@ -8,6 +8,8 @@ import { example } from "../check/example.ts";
 import { characters, documentName, type Kind, range, spans } from "../check/text.ts";
 import type { Checked, Place } from "../engine/types.ts";
 import { engine, note, revision, robot } from "../state.ts";
+import { chooseFile } from "./robots.tsx";
+import { RecordingPart } from "../recorded/part.tsx";
 import { Failure, ProgressLine, Task } from "../task.tsx";
 import { Button } from "../widgets/button.tsx";
 
@@ -68,6 +70,7 @@ export function CheckPanel() {
   };
   return (
     <section class="check-panel" aria-label="Check">
+      <RecordingPart />
       <MarkedArea
         text={text.value}
         spans={marks}
@@ -91,6 +94,7 @@ export function CheckPanel() {
           ))}
         </select>
         <Button label="Example" hint="Formulas of this robot with a slip in them" onClick={() => void putExample()} />
+        <Button label="Open a recording" hint="Joints and hand poses as CSV, JSON Lines, NPY, NPZ or Parquet; it may be dropped anywhere, too" onClick={chooseFile} />
         {text.value !== "" && <Button label="Clear" kind="plain" onClick={() => (text.value = "")} />}
       </div>
       <ProgressLine task={checking} words="Checking" cancel={() => engine().formulas.cancel()}>

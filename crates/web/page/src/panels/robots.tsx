@@ -3,6 +3,7 @@
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Convention, Finding, Input, Listed, Output } from "../engine/types.ts";
 import { batch, effect, engine, file, note, panel, replace, said, signal, stale } from "../state.ts";
+import { isRecording, openRecording } from "../recorded/recorded.ts";
 import { flush } from "../table/cells.ts";
 import { CONVENTIONS } from "../table/convention.tsx";
 import { TreePart } from "../tree/dialog.tsx";
@@ -106,12 +107,16 @@ function kindOf(name: string): Kind {
   return Object.hasOwn(kinds, ending) ? kinds[ending] : "any";
 }
 
-/** Files that were chosen or dropped: a robot file, a table, or a tree with what belongs to it. */
+/** Files that were chosen or dropped: a robot file, a table, a tree with what belongs to it, or a recording. */
 export async function openFiles(files: Lying[]): Promise<void> {
   try {
     const [only] = files;
     if (!only) throw new Error("There is no file in it.");
     if (files.length > 1 || /\.zip$/i.test(only.path)) return treeIsTaken(await openTree(files));
+    if (await isRecording(only)) {
+      dialog.value = null;
+      return await openRecording(only);
+    }
     const isTreeFile = /\.(urdf|xacro|xml|mjcf)$/i.test(only.path);
     if (only.size > (isTreeFile ? MOST_TREE_BYTES : MOST_BYTES)) {
       throw new Error(`${only.path} is larger than ${isTreeFile ? "16 MiB" : "2 MB"}: it is not a robot description.`);
@@ -125,7 +130,7 @@ export async function openFiles(files: Lying[]): Promise<void> {
 /** Asks for a file. */
 export function chooseFile(): void {
   ask((input) => {
-    input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt,.urdf,.xacro,.xml,.mjcf,.zip";
+    input.accept = ".toml,.md,.markdown,.csv,.tsv,.tex,.txt,.urdf,.xacro,.xml,.mjcf,.zip,.jsonl,.ndjson,.npy,.npz,.parquet";
   });
 }
 

@@ -1,8 +1,9 @@
-// Parts of the page that are fetched when they are first needed: what unpacks archives and reads meshes.
+// Parts of the page that are fetched when they are first needed: what unpacks archives, reads meshes and tables.
 
 import { addressOf } from "../files.ts";
 
 interface Parts {
+  parquet: typeof import("../lazy/parquet.ts");
   unzip: typeof import("../lazy/unzip.ts");
   stl: typeof import("../lazy/stl.ts");
   obj: typeof import("../lazy/obj.ts");
