@@ -110,6 +110,29 @@ fn trees_have_wrenches_streams_and_motions() {
     );
 }
 
+/// Axes at no usual angles make base parameters of millions of terms: that is said in time, and its numbers are there all the same.
+#[test]
+fn formulas_without_end_are_not_begun() {
+    let link = |k: usize| {
+        format!(
+            "<link name='l{k}'><inertial><origin xyz='0.1 0.2 0.3'/><mass value='1.{k}'/>\
+             <inertia ixx='1' iyy='1.1' izz='1.2' ixy='0.1' ixz='0.2' iyz='0.05'/></inertial></link>"
+        )
+    };
+    let joint = |k: usize| {
+        format!(
+            "<joint name='j{k}' type='continuous'><parent link='l{}'/><child link='l{k}'/>\
+             <origin xyz='0.11 0.2{k} 0.31' rpy='0.3{k} 0.5 0.71'/><axis xyz='0.2{k} 0.33 0.9'/></joint>",
+            k - 1
+        )
+    };
+    let parts: String = (1..=4).map(|k| link(k) + &joint(k)).collect();
+    let arm = file("askew.urdf", &format!("<robot name='r'>{}{parts}</robot>", link(0)));
+    refused(&[&arm, "--whole", "--symbolic"], 5, "literals as a formula");
+    let answer = fed(&["dynamics", &arm, "--whole", "-q", "j1=0.3"], "");
+    assert_eq!(answer.status.code(), Some(0), "{}", text(&answer.stderr));
+}
+
 /// A joint with Coulomb's friction that stands still: what the friction is there is not known.
 #[test]
 fn friction_at_rest_is_said() {

@@ -193,7 +193,8 @@ fn diagonal(r: &Rotation<Expr>, mass: Vector<Expr>) -> Option<Vector<Expr>> {
         }
     };
     let [a, b, c] = rows.map(along);
-    Some(Vector([a?, b?, c?])).or_else(|| {
+    let apart = || Some(Vector([a?, b?, c?]));
+    apart().or_else(|| {
         // A turn about z leaves a mass in the plan as it is.
         let about_z = rows[2][0].is_zero() && rows[2][1].is_zero();
         (about_z && x == y).then_some(mass)

@@ -207,6 +207,26 @@ fn slides_askew_have_the_fewest_parameters() {
     }
 }
 
+/// A slide along the turns before it, with a turn about them at no usual angle between: seen along them it is fixed to the link before.
+#[test]
+fn slides_along_turns_have_the_fewest_parameters() {
+    let row = |moves: &str| format!("[[joints]]\n{moves}\n");
+    let rows = [
+        "theta = 'q1'\na = 'a1'",
+        "theta = 'q2'\na = 'a2'",
+        "theta = 'q3'\nalpha = '180 deg'",
+        "theta = '0.8 rad'\nd = 'q4'\nalpha = '90 deg'\na = 'a4'",
+        "theta = 'q5'\nd = 'd5'",
+    ];
+    let text = format!(
+        "convention = 'standard'\n[parameters]\na1 = ''\na2 = ''\na4 = ''\nd5 = ''\n{}",
+        rows.map(row).concat()
+    );
+    let (formulas, model) = base(&read_toml(&text).unwrap_or_else(|e| panic!("{text}: {e:?}")).0);
+    assert!(!differs(&formulas, &model, 7), "{text}");
+    assert_eq!((model.parameters.len(), model.minimality), (15, Minimality::Proved));
+}
+
 /// All structures of three joints with right angles between their axes, lengths there or not, two directions of gravity: the torques
 /// are the same, and the parameters proved to be the fewest.
 #[test]

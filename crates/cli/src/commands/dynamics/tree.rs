@@ -9,9 +9,9 @@ use crate::load;
 use denavit::description::{JointKind, Mechanism};
 use denavit::dynamics::{DynamicModel, Formulas, Ground, OfTree, Unknown};
 use denavit_report::explain::{tree_dynamics_document, tree_dynamics_vocabulary};
-use denavit_symbolic::Expr;
 use denavit_symbolic::print::{Style, print};
 use denavit_symbolic::vocabulary::Vocabulary;
+use denavit_symbolic::{Expr, readable};
 use denavit_wire::dynamics::Model;
 use std::io::Write;
 
@@ -25,6 +25,16 @@ pub fn unknown(file: &str, why: &Unknown) -> Failure {
         Unknown::NegativeMass(_) => "; no motion follows from it",
     };
     Failure::Input(format!("error: {file}: {why}{hint}"))
+}
+
+/// The most literals of a base parameter's formula that are printed.
+const MAX_LITERALS: u64 = 20_000;
+
+/// A base parameter of which the formula is too long to be printed, and its literals.
+fn too_long(model: &DynamicModel) -> Option<(String, u64)> {
+    let long =
+        |p: &denavit::dynamics::BaseParameter| (p.symbol.name().to_string(), readable::literals(p.value));
+    model.base.parameters.iter().map(long).find(|(_, literals)| *literals > MAX_LITERALS)
 }
 
 /// Formulas of a tree.
@@ -51,6 +61,11 @@ pub fn printed(
     names: &Vocabulary,
     arguments: &DynamicsArguments,
 ) -> Result<(), Failure> {
+    if let Some((long, literals)) = too_long(model) {
+        return Err(Failure::GaveUp(format!(
+            "{long} has {literals} literals as a formula, by axes and frames at no usual angles; `generate --whole` writes its program"
+        )));
+    }
     let tongue = arguments.language.tongue();
     let text = if arguments.json || arguments.format == Format::Json {
         let text = |e: Expr| print(e, names, Style::Ascii);
