@@ -297,10 +297,24 @@ impl<'a> Units<'a> {
     /// True if a formula has one unit throughout, and that of a joint is degrees: each sine has radians, and each arctangent has one
     /// factor. Notes what its name then is.
     pub fn hold_in(&mut self, name: &str, formula: &str) -> bool {
-        let Ok(value) = parse(formula, &Vocabulary::new().open(true)) else { return false };
+        let Ok(value) = parse(&self.renamed(formula), &Vocabulary::new().open(true)) else { return false };
         let Some(unit) = self.of(value) else { return false };
         self.known.insert(name.into(), unit);
+        self.known.extend(plain_name_of(name).map(|n| (n, unit)));
         !(self.is_joint)(name) || unit == DEGREES || unit == NONE
+    }
+
+    /// A formula in which names of the program that look like sines and cosines, `c2`, are names.
+    fn renamed(&self, formula: &str) -> String {
+        let mut out = String::with_capacity(formula.len());
+        for part in formula.split_inclusive(|c: char| !is_part(c)) {
+            let word = part.trim_end_matches(|c: char| !is_part(c));
+            match plain_name_of(word).filter(|_| self.known.contains_key(word)) {
+                Some(name) => out += &(name + &part[word.len()..]),
+                None => out += part,
+            }
+        }
+        out
     }
 
     fn of(&self, e: Expr) -> Option<Unit> {
@@ -348,6 +362,14 @@ impl<'a> Units<'a> {
             () => None,
         }
     }
+}
+
+/// Another name for one that would be read as a sine or a cosine: `c2`, `S23`.
+fn plain_name_of(name: &str) -> Option<String> {
+    let digits = name.strip_prefix(['c', 's', 'C', 'S'])?;
+    let letter = name.bytes().next()?;
+    let is_one = !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
+    is_one.then(|| format!("j{letter}{digits}"))
 }
 
 /// The names in a formula of a program.
@@ -445,6 +467,8 @@ mod tests {
     #[test]
     fn formulas_have_one_unit() {
         let constants = Conversions::defined(CONSTANTS);
+        let mut units = Units::new(&constants, &is_joint);
+        assert!(units.hold_in("c2", "x/L") && units.hold_in("j1", "atan2(y, L + c2) * DEG"));
         for (formula, holds) in [
             ("(atan2(y, x) - atan2(L, x)) * DEG", true),
             ("atan2(y, x) * DEG - atan2(L * sin(j2 * RAD), x) * DEG", true),
