@@ -1,6 +1,6 @@
 //! Columns of which there is one a joint, by their names: of rates, of torques.
 
-use crate::roles::{numbered, plain};
+use crate::spelled::{numbered, plain};
 
 /// The columns of a quantity, one a joint: names in front of numbers that are known for it (`tau1`, `effort[0]`), or a joint's own name
 /// before or behind one of these (`elbow_torque`). What is known is small letters and digits.

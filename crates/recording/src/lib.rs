@@ -24,6 +24,7 @@ mod recipe_text;
 mod recording;
 mod roles;
 mod search;
+mod spelled;
 mod times;
 pub mod turns;
 pub mod words;

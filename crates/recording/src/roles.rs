@@ -2,6 +2,7 @@
 
 use crate::arm::Arm;
 use crate::recording::{Recording, Roles, Said};
+use crate::spelled::{numbered, plain};
 use crate::times::{column_of_episodes, column_of_time};
 
 /// What columns are told by hand, as on a command line: names, or `first..last`, with commas.
@@ -115,19 +116,6 @@ const POSES: &[&str] = &[
     "endeffectorpose",
     "endpose",
 ];
-
-/// Small letters, digits and Greek ones alone.
-pub(crate) fn plain(name: &str) -> String {
-    name.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect()
-}
-
-/// A name in front of its number, and the number.
-pub(crate) fn numbered(name: &str) -> Option<(String, usize)> {
-    let trimmed = name.trim_end_matches([']', ')', '}']);
-    let digits = trimmed.len() - trimmed.bytes().rev().take_while(u8::is_ascii_digit).count();
-    let number = trimmed[digits..].parse().ok()?;
-    Some((plain(&trimmed[..digits]), number))
-}
 
 /// Columns told by hand, as names with commas or `first..last`, by their numbers.
 ///

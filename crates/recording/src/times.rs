@@ -1,7 +1,7 @@
 //! Which column is the time, which the number of the episode, and in what the time is counted.
 
 use crate::recording::Said;
-use crate::roles::plain;
+use crate::spelled::plain;
 
 /// Names of the time, its unit left aside.
 const TIMES: &[&str] =
