@@ -72,7 +72,7 @@ fn alone(command: &Command, matches: &ArgMatches) -> Option<(String, String)> {
         }
     };
     NEEDED.iter().filter(|n| n.0 == verb).find_map(|(_, options, needs)| {
-        let option = options.iter().find(|o| is_given(o) && !needs.iter().any(|n| is_given(&n)))?;
+        let option = options.iter().find(|o| is_given(o) && !needs.iter().any(is_given))?;
         let needs: Vec<String> = needs.iter().map(|n| called(n)).collect();
         Some((verb.to_string(), format!("{} is for {}", called(option), needs.join(" or "))))
     })

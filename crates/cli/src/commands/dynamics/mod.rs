@@ -301,18 +301,16 @@ impl Arm {
 
 /// An answer of numbers that doubles hold.
 fn bounded(answer: Answer) -> Result<Answer, String> {
-    let Answer { torques, accelerations, inertia, velocity, momentum, energy, power, derivatives, .. } =
-        &answer;
-    let slopes = derivatives
-        .iter()
-        .flat_map(|d| [Some(&d.by_q), Some(&d.by_qd), d.by_qdd.as_ref(), d.by_tau.as_ref()]);
-    let rows =
-        inertia.iter().chain(slopes.flatten().flatten()).chain([torques, velocity]).chain(accelerations);
-    let mut all = rows.flatten().chain(&momentum.linear).chain(&momentum.angular);
-    let sums = [energy.kinetic, energy.potential, power.supplied, power.kinetic];
-    let is_finite = all.all(|x| x.is_finite()) && sums.iter().all(|x| x.is_finite());
-    drop(all);
-    match is_finite {
+    let is_bounded = |a: &Answer| {
+        let slopes =
+            |d: &Slopes| [Some(d.by_q.clone()), Some(d.by_qd.clone()), d.by_qdd.clone(), d.by_tau.clone()];
+        let slopes = a.derivatives.iter().flat_map(slopes).flatten().flatten().flatten();
+        let rows = a.inertia.iter().chain([&a.torques, &a.velocity]).chain(&a.accelerations).flatten();
+        let rows = rows.chain(&a.momentum.linear).chain(&a.momentum.angular).copied();
+        let sums = [a.energy.kinetic, a.energy.potential, a.power.supplied, a.power.kinetic];
+        rows.chain(slopes).chain(sums).all(f64::is_finite)
+    };
+    match is_bounded(&answer) {
         true => Ok(answer),
         false => Err("the state is so large that doubles do not hold what follows from it".into()),
     }
