@@ -458,7 +458,8 @@ mod tests {
             let at = text.find(first).unwrap();
             let next = text.find(second).unwrap();
             let functions = [at..at + first.len(), next..next + second.len()];
-            let program = code_alone(&text, &[0..text.len()], Dialect::C);
+            let whole = 0..text.len();
+            let program = code_alone(&text, std::slice::from_ref(&whole), Dialect::C);
             let turned = Turned::of(&program, &functions, &is_joint);
             assert_eq!([0, 1].map(|k| turned.angles(Some(&functions[k]))), expected, "{first}");
         }

@@ -165,7 +165,7 @@ pub(super) fn changed<'a>(statements: &'a [Statement], names: &mut Vec<&'a str>)
 }
 
 /// The names on the left sides of statements.
-pub(super) fn given<'a>(statements: &'a [Statement]) -> Vec<&'a str> {
+pub(super) fn given(statements: &[Statement]) -> Vec<&str> {
     let mut names = vec![];
     collected(statements, &mut names, true);
     names

@@ -191,7 +191,7 @@ impl Writer {
         let before = |k: usize| if k > start { self.op(k - 1) } else { ";" };
         if self.op(at) == "]" && self.op(at + 1) == "=" {
             // `[a, b] = …`
-            let open = (start..at).rev().find(|&k| self.op(k) == "[").filter(|&k| before(k) != "");
+            let open = (start..at).rev().find(|&k| self.op(k) == "[").filter(|&k| !before(k).is_empty());
             let inside = open.map_or(at..at, |open| open + 1..at);
             return inside.filter_map(|k| self.name(k).map(str::to_string)).collect();
         }
