@@ -146,7 +146,7 @@ struct Arm {
 #[derive(Clone)]
 enum Exerts {
     /// By a body of a chain.
-    Chain(Robot<f64>, Viewpoint<f64>),
+    Chain(Box<Robot<f64>>, Viewpoint<f64>),
     /// At a point of a link of a tree, in its frame.
     Link(usize, Vector<f64>),
     /// By what stands still.
@@ -205,7 +205,13 @@ impl Arm {
         };
         let joints = d.variables().iter().map(|v| v.symbol.name().to_string()).collect();
         let is_whole = whole.is_some();
-        Ok(Arm { dynamics, name: d.name.clone(), joints, exerts: Some(Exerts::Chain(robot, at)), is_whole })
+        Ok(Arm {
+            dynamics,
+            name: d.name.clone(),
+            joints,
+            exerts: Some(Exerts::Chain(Box::new(robot), at)),
+            is_whole,
+        })
     }
 
     /// Says which joints stand still and have Coulomb's friction, which is then not known.
