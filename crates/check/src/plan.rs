@@ -18,7 +18,7 @@ use super::subject::Subject;
 use super::tables::OwnTable;
 use super::walk::{Answered, Assertion, Defined, Goal, Walk, of_other_points, points};
 use denavit::catalogue;
-use denavit::description::table::{PrintedTable, convention_said};
+use denavit::description::table::{PrintedTable, convention_said, tables};
 use denavit::description::{
     Convention, Description, Diagnostic, Measure, NotSet, Severity, TableKind, line_column,
 };
@@ -192,11 +192,15 @@ impl Plan {
         }
         let kind = kind_of_tables(format);
         let mut reading = options.table.clone();
-        if let (None, Some((convention, place))) = (reading.convention, convention_said(text)) {
-            notes.note(place, Noted::ReadAs(convention));
-            reading.convention = Some(convention);
-        }
         let is_open = format != Format::Toml;
+        if let (None, Some((convention, place))) = (reading.convention, convention_said(text)) {
+            // What the columns of a table say comes before words, as where it is read for itself.
+            let differs = |t: &PrintedTable| t.robot.as_ref().is_ok_and(|r| r.0.convention != convention);
+            if !(is_open && tables(text, kind, &reading).iter().any(differs)) {
+                notes.note(place, Noted::ReadAs(convention));
+                reading.convention = Some(convention);
+            }
+        }
         let printed = if is_open { listing::tables_of(text, kind, options, &reading) } else { vec![] };
         plan.tables = Rc::new(printed.iter().map(|t| t.span.clone()).collect());
         let mut events: Vec<(usize, Event)> =

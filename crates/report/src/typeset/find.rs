@@ -53,8 +53,7 @@ pub fn printed(text: &str) -> Vec<Printed> {
             None
         };
         // A sign behind a backslash is that sign.
-        let signs =
-            rest.strip_prefix('\\').map_or(1, |behind| 1 + behind.chars().next().map_or(0, char::len_utf8));
+        let signs = rest.strip_prefix('\\').map_or(1, |r| 1 + r.chars().next().map_or(0, char::len_utf8));
         at = next.as_ref().map_or(start + signs, |p| p.outer.end);
         found.extend(next);
     }
