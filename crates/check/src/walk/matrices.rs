@@ -175,13 +175,15 @@ impl Walk<'_> {
     fn begin_again(&mut self, statement: &Statement) {
         let [left, right] = &statement.sides[..] else { return };
         let Some(name) = self.lone(left) else { return };
-        let is_own = |name: &Name| self.lexis.habits.products.contains(&name.key());
+        // Links of a document's own, and what it makes of them.
+        let has_own_links = self.lexis.habits.products.iter().any(|key| !key.starts_with('T'));
+        let is_own = |name: &Name| self.named_under.contains_key(&name.key());
         let is_elsewhere =
             || self.named_under.get(&name.key()).is_some_and(|under| *under != statement.heading);
         let is_told = matches!(right.parts[..], [Part::Text(_)])
             && !order::names(self.text, right).iter().any(is_own)
             && product(self.text, right, &self.lexis, &self.subject, &|_| None).is_ok();
-        if is_own(&name) && self.lexis.has_defined(&name) && is_elsewhere() && is_told {
+        if has_own_links && self.lexis.has_defined(&name) && is_elsewhere() && is_told {
             self.lexis.forget_frames();
             self.named_under.clear();
         }

@@ -171,8 +171,13 @@ fn long_texts_are_read_in_time() {
             }
             started.elapsed().as_secs_f64()
         };
-        // Sixteen times as long takes sixteen times the time, not 256 times.
-        let (short, long) = (seconds(1 << 15), seconds(1 << 19));
-        assert!(long < 1.0 + 64.0 * short, "{piece:?}: {short} s, {long} s");
+        // Sixteen times as long takes sixteen times the time, not 256 times; a busy machine may be slow once.
+        let mut measured = vec![];
+        let is_linear = (0..3).any(|_| {
+            let (short, long) = (seconds(1 << 15), seconds(1 << 19));
+            measured.push((short, long));
+            long < 1.0 + 64.0 * short
+        });
+        assert!(is_linear, "{piece:?}: {measured:?} s");
     }
 }

@@ -92,7 +92,7 @@ function Played({ answer }: { answer: RecordedAnswer }) {
       )}
       {path.value === motion ? <Player end={motion.duration} /> : <Button label="Play the recording" onClick={() => show(answer, view.peek())} />}
       <p class="quiet">The arm is moved by the joints; the line is the hand that was recorded. {sentence(motion.timing)}</p>
-      <div class="plots">
+      <div class="plots" key={motion.path}>
         <Plot title="Position off" unit="mm" fromZero series={shift} {...common} />
         <Plot title="Orientation off" unit="°" fromZero series={turn} {...common} />
       </div>
