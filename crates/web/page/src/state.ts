@@ -319,6 +319,8 @@ export const path = signal<Path | null>(null);
 /** Seconds from its start. */
 export const time = signal(0);
 export const playing = signal(false);
+/** Counts motions that were opened: they are to be seen whole. */
+export const motions = signal(0);
 
 // What went wrong ---------------------------------------------------------------------------------------------------
 

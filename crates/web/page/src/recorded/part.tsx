@@ -11,7 +11,7 @@ import { engine, panel, path, reach, revision, robot, time } from "../state.ts";
 import { Failure, ProgressLine } from "../task.tsx";
 import { Button, Segments } from "../widgets/button.tsx";
 import { Callout } from "../widgets/callout.tsx";
-import { sentence, Words } from "../widgets/words.tsx";
+import { sentence } from "../widgets/words.tsx";
 import { close, hold, holding, opened, show, view } from "./recorded.ts";
 
 export function RecordingPart() {
@@ -27,10 +27,12 @@ export function RecordingPart() {
         {isOld && <Button label="Hold again" kind="main" hint="The robot has changed since" small onClick={() => void hold()} />}
         <Button label="Close" hint="Forget the recording" kind="plain" small onClick={close} />
       </div>
-      <ProgressLine task={holding} words="Holding it against the robot" cancel={() => engine().formulas.cancel()}>
-        {progress.kind === "cancelled" && <span class="quiet">Not held against the robot.</span>}
-        {isOld && <span class="quiet">The robot has changed since.</span>}
-      </ProgressLine>
+      {!done && (
+        <ProgressLine task={holding} words="Holding it against the robot" cancel={() => engine().formulas.cancel()}>
+          {progress.kind === "cancelled" && <span class="quiet">Not held against the robot.</span>}
+        </ProgressLine>
+      )}
+      {isOld && <p class="quiet">The robot has changed since.</p>}
       {progress.kind === "failed" && <Failure words={progress.words} hint={progress.hint} />}
       {done && <Found answer={done.answer} left={done.left} isOld={isOld} />}
     </section>
@@ -50,16 +52,14 @@ function Found({ answer, left, isOld }: { answer: RecordedAnswer; left: string[]
         {recorded.rows} rows against {recorded.robot}: joints {list(joints)}; position {list(position)}; orientation {list(rotation)}
         {clock !== null && `; time ${clock}`}.
         {left.length > 0 && ` Left out, for they are no numbers: ${list(left)}.`}
-        {answer.remarks.map((remark) => ` ${remark}.`)}
+        {answer.remarks.map((remark) => ` ${sentence(remark)}`)}
       </p>
       <Callout tone={tone}>
         <strong>{verdict}</strong>
       </Callout>
       <ul class="recorded-lines" aria-label="What was found">
         {answer.lines.map((line, k) => (
-          <li key={k}>
-            <Words text={line} />
-          </li>
+          <li key={k}>{line}</li>
         ))}
       </ul>
       {!isOld && answer.views.length > 0 && <Played answer={answer} />}
@@ -71,12 +71,16 @@ function Found({ answer, left, isOld }: { answer: RecordedAnswer; left: string[]
   );
 }
 
+/** Metres and radians that nobody measures. */
+const ROUNDING = 1e-8;
+
 /** The motion: by the joints, beside the hand that was recorded. */
 function Played({ answer }: { answer: RecordedAnswer }) {
   const chosen = answer.views[Math.min(view.value, answer.views.length - 1)]!;
   const { path: motion } = chosen;
   const shift = useMemo(() => [{ name: "distance", joint: null, values: chosen.shift.map((x) => 1e3 * x) }], [chosen]);
   const turn = useMemo(() => [{ name: "angle", joint: null, values: chosen.turn.map((x) => (x * 180) / Math.PI) }], [chosen]);
+  const isRounding = [...chosen.shift, ...chosen.turn].every((x) => x < ROUNDING);
   const common = { times: motion.t, events: [] };
   const solve = () => {
     const { index } = locate(motion.t, time.peek());
@@ -92,10 +96,14 @@ function Played({ answer }: { answer: RecordedAnswer }) {
       )}
       {path.value === motion ? <Player end={motion.duration} /> : <Button label="Play the recording" onClick={() => show(answer, view.peek())} />}
       <p class="quiet">The arm is moved by the joints; the line is the hand that was recorded. {sentence(motion.timing)}</p>
-      <div class="plots" key={motion.path}>
-        <Plot title="Position off" unit="mm" fromZero series={shift} {...common} />
-        <Plot title="Orientation off" unit="°" fromZero series={turn} {...common} />
-      </div>
+      {isRounding ? (
+        <p class="quiet">But for rounding the hand is where the joints say.</p>
+      ) : (
+        <div class="plots" key={motion.path}>
+          <Plot title="Position off" unit="mm" fromZero series={shift} {...common} />
+          <Plot title="Orientation off" unit="°" fromZero series={turn} {...common} />
+        </div>
+      )}
       <Button label="Solve the recorded hand" hint={`All configurations of ${robot.value?.robot ?? "the arm"} for the hand that was recorded at this time`} onClick={solve} />
       <details>
         <summary>Joints</summary>

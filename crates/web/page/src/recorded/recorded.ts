@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import type { RecordedAnswer, RecordedColumn } from "../engine/types.ts";
 import { plannedFrom } from "../path/points.ts";
-import { batch, engine, panel, path, playing, q, revision, time } from "../state.ts";
+import { batch, engine, motions, panel, path, playing, q, revision, time } from "../state.ts";
 import { Task } from "../task.tsx";
 import type { Lying } from "../tree/files.ts";
 import { lazy } from "../tree/lazy.ts";
@@ -68,6 +68,7 @@ export function show(answer: RecordedAnswer, k: number): void {
     time.value = 0;
     path.value = chosen.path;
     if (chosen.path.q[0]) q.value = chosen.path.q[0];
+    motions.value += 1;
   });
 }
 

@@ -7,7 +7,7 @@ import { addBeside } from "../beside/picture.ts";
 import { addMeaning } from "../formula/meaning-picture.ts";
 import { addGame } from "../game/picture.ts";
 import { addEllipsoid } from "../mobility/picture.ts";
-import { answerNow, effect, look, q, robot, scene, selected } from "../state.ts";
+import { answerNow, effect, look, motions, q, robot, scene, selected } from "../state.ts";
 import { addArm } from "./arm.ts";
 import { isAskedFor, present } from "./camera.ts";
 import { Cube } from "./cube.tsx";
@@ -71,6 +71,14 @@ function build(canvas: HTMLCanvasElement, isSoftware: boolean): Stage {
   stage.onEnd(
     effect(() => {
       if (wholeTrees.value > 0) fit(stage, false);
+    }),
+  );
+  let seen = motions.peek();
+  stage.onEnd(
+    effect(() => {
+      if (motions.value === seen) return;
+      seen = motions.value;
+      if (!stage.orbit.isChosen) fit(stage, true);
     }),
   );
   // The card of a row takes a part of the picture: a view that nobody has chosen makes room for it.
