@@ -251,6 +251,16 @@ fn a_motion_within_limits() {
     for row in [&rows[0], &rows[800]] {
         assert!(row[4..].iter().all(|x| x.abs() < 1e-9), "{row:?}");
     }
+    // Steps that do not end with the motion end at rest behind it.
+    let uneven = folder.join("uneven.csv").to_string_lossy().into_owned();
+    let mut other = arguments.clone();
+    other.pop();
+    let (code, out, err) = run(&[&other[..], &[&uneven, "--dt", "0.3"]].concat());
+    assert_eq!(code, 0, "{out}{err}");
+    let text = std::fs::read_to_string(&uneven).expect("a file");
+    let last: Vec<f64> =
+        text.lines().last().expect("a row").split(',').map(|x| x.parse().expect("a number")).collect();
+    assert!((last[0] - 8.1).abs() < 1e-9 && last[4..].iter().all(|x| x.abs() < 1e-9), "{last:?}");
     // The names are those that other verbs read.
     let torques = folder.join("torques.csv");
     let (code, out, err) = run(&["map", &robot, &name, "--torque", "-o", &torques.to_string_lossy()]);

@@ -130,11 +130,12 @@ fn said(subject: &Subject, d: &Description, arguments: &IdentifyArguments, found
     text + "  positions, velocities and accelerations are within their limits at all times; whether the arm hits itself or anything else is not looked at\n"
 }
 
-/// Writes the motion: the time, joints, velocities, accelerations.
+/// Writes the motion: the time, joints, velocities, accelerations. Rows are `dt` apart; where these do not end with the motion, the last
+/// one is behind it, at rest.
 fn write(file: &Path, motion: &Excitation, names: &[String], dt: f64) -> Result<(), Failure> {
-    let rows = (motion.duration / dt).round() as usize + 1;
-    let times: Vec<f64> = (0..rows).map(|r| (r as f64 * dt).min(motion.duration)).collect();
-    let states: Vec<[Vec<f64>; 3]> = times.iter().map(|t| motion.at(*t)).collect();
+    let rows = (motion.duration / dt - 1e-9).ceil() as usize + 1;
+    let times: Vec<f64> = (0..rows).map(|r| r as f64 * dt).collect();
+    let states: Vec<[Vec<f64>; 3]> = times.iter().map(|t| motion.at(t.min(motion.duration))).collect();
     let mut columns = vec![Column { name: "t".into(), unit: None, values: times }];
     // The names that `identify` and `map` know.
     for (k, front) in ["", "qd", "qdd"].into_iter().enumerate() {
