@@ -89,7 +89,7 @@ impl Csv {
         }
         let mut reader = reader(path, between)?;
         let names: Vec<String> = {
-            let head = reader.byte_headers().map_err(|why| broken(path, &why))?;
+            let head = reader.byte_headers().map_err(|why| unread(&why, 1, path))?;
             head.iter()
                 .map(|n| String::from_utf8_lossy(n).trim().trim_start_matches('\u{feff}').to_string())
                 .collect()
@@ -143,7 +143,12 @@ fn reader(path: &Path, between: u8) -> Result<Reader<Lines>, MapError> {
 fn next(reader: &mut Reader<Lines>, record: &mut ByteRecord, path: &Path) -> Result<bool, MapError> {
     reader.get_mut().since = 0;
     let start = reader.position().line();
-    reader.read_byte_record(record).map_err(|why| match why.kind() {
+    reader.read_byte_record(record).map_err(|why| unread(&why, start, path))
+}
+
+/// Why the line that begins as this one is none.
+fn unread(why: &csv::Error, start: u64, path: &Path) -> MapError {
+    match why.kind() {
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
             let what = format!(
@@ -154,10 +159,14 @@ fn next(reader: &mut Reader<Lines>, record: &mut ByteRecord, path: &Path) -> Res
         }
         csv::ErrorKind::Io(why) if why.kind() == std::io::ErrorKind::Other => {
             let what = format!("{}: line {start} does not end within {} MB", path.display(), LONGEST >> 20);
-            MapError::new(what, "is a quote opened there, and never closed?")
+            let hint = match start {
+                1 => "a table has a row for each moment: is it lying on its side?",
+                _ => "is a quote opened there, and never closed?",
+            };
+            MapError::new(what, hint)
         }
-        _ => broken(path, &why),
-    })
+        _ => broken(path, why),
+    }
 }
 
 /// A row in as many bytes as it has: a record keeps the room of the longest before it.

@@ -103,7 +103,8 @@ fn texts_that_are_no_tables() {
     refused(b"q1;q2;q3;q4;q5;q6\n1;2;3,5;4;5;6\n", "column `q3` holds Utf8, no numbers");
     refused(b"\xff\xfeq\x001\x00", "no text in UTF-8");
     let wide: String = (0..1_000_000).map(|k| format!("a long name of a column {k},")).collect();
-    refused(wide.as_bytes(), "more than 4096 columns");
+    refused(&wide.as_bytes()[..1 << 20], "more than 4096 columns");
+    refused(wide.as_bytes(), "line 1 does not end within 16 MB");
     // Nulls, numbers that are none, names with zeros in front, quotes.
     let text = "id,q1,q2,q3,q4,q5,q6,note\n007,1,2,3,4,5,6,\"a, b\"\n008,,2,3,4,5,6,c\n009,nan,2,3,4,5,6,d\n";
     fs::write(&input, text).expect("written");
