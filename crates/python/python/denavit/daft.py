@@ -10,6 +10,7 @@ A function of expressions, and columns by it::
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 from ._batch import BatchMap
@@ -20,8 +21,7 @@ def function(mapping: BatchMap, **options: Any) -> Any:
 
     ``options`` are those of ``daft.func.batch``: ``use_process``, ``batch_size``, ``max_retries`` and others.
     """
-    import daft  # type: ignore[import-not-found, unused-ignore]
-
+    daft: Any = import_module("daft")
     names = [field.name for field in mapping.results()]
     fields = {field.name: daft.DataType.from_arrow_type(field.type) for field in mapping.results()}
     kept = set(mapping.inputs) & set(names)
@@ -39,8 +39,7 @@ def function(mapping: BatchMap, **options: Any) -> Any:
 
 def with_columns(frame: Any, mapping: BatchMap, **options: Any) -> Any:
     """A ``daft.DataFrame`` with what is computed of its rows; ``options`` are those of ``daft.func.batch``."""
-    import daft
-
+    daft: Any = import_module("daft")
     made = function(mapping, **options)(*(daft.col(name) for name in mapping.inputs))
     names = [field.name for field in mapping.results()]
     whole = frame.with_column("_denavit", made)
