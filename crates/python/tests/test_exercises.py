@@ -41,7 +41,7 @@ def test_what_there_is_not():
         Robot("ur5").exercise("poetry")
     with pytest.raises(UsageError, match="1 to 20"):
         Robot("ur5").exercise("fk", count=0)
-    with pytest.raises(UnsupportedError, match="endless"):
+    with pytest.raises(UnsupportedError, match="infinitely many"):
         Robot("kuka-iiwa-7").exercise("ik")
     with pytest.raises(UsageError, match="written in `it`"):
         Robot("ur5").exercise("fk", language="it")
