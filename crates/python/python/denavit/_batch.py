@@ -210,7 +210,9 @@ class BatchMap:
 
 
 def map_batch(robot: Union[Robot, str], batch: Any, **wish: Any) -> Any:
-    """A record batch with what is computed of its rows; ``wish`` is what `BatchMap` takes::
+    """A record batch with what is computed of its rows; ``wish`` is what `BatchMap` takes.
+
+    For example::
 
         joints = pyarrow.record_batch({f"q{k}": numpy.zeros(3) for k in range(1, 7)})
         map_batch("ur5", joints, fk=True, keep=[]).column("z")
