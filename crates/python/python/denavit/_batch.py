@@ -81,8 +81,7 @@ class BatchMap:
     Raises `UsageError` if a function cannot be had, and, when it is called, if its inputs are not there.
     """
 
-    __slots__ = ("_columns", "_wish", "robot")
-    robot: Robot
+    __slots__ = ("_columns", "_robot", "_wish")
 
     def __init__(
         self,
@@ -107,7 +106,7 @@ class BatchMap:
         keep: Optional[Sequence[str]] = None,
         prefix: str = "",
     ) -> None:
-        self.robot = Robot(robot) if isinstance(robot, str) else robot
+        self._robot = Robot(robot) if isinstance(robot, str) else robot
         all_frames = [frames] if isinstance(frames, (str, int)) else frames
         self._wish = {
             "fk": fk,
@@ -137,6 +136,11 @@ class BatchMap:
                 _KNOWN.pop(next(iter(_KNOWN)), None)
             _KNOWN[key] = columns
         self._columns = columns
+
+    @property
+    def robot(self) -> Robot:
+        """The robot."""
+        return self._robot
 
     @property
     def inputs(self) -> list[str]:
