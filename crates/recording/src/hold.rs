@@ -69,6 +69,14 @@ pub struct Held {
     pub rows: [usize; 2],
 }
 
+impl Held {
+    /// The recipe of the columns as they stand: they are what they are said to be. In what the orientation is written is no slip, and
+    /// is as it was found.
+    pub fn as_columns_stand(&self, recording: &Recording, roles: &Roles, arm: &Arm) -> Recipe {
+        Recipe { format: self.recipe.format, ..Recipe::plain(recording, roles, arm) }
+    }
+}
+
 /// Holds a recording against an arm.
 ///
 /// # Errors

@@ -72,33 +72,26 @@ pub fn recording(subject: &Subject, wish: Wish) -> Result<Answer, Refusal> {
     let refused = |why: &dyn std::fmt::Display| in_lines(&why.to_string());
     let roles = Roles::find(&recording, &arm, &Told::default()).map_err(|e| refused(&e))?;
     let held = hold(&arm, &recording, &roles, &HoldOptions::default()).map_err(|e| refused(&e))?;
-    let of = |c: &usize| recording.columns[*c].name.clone();
-    let columns: Vec<String> = roles.joints.iter().map(of).collect();
+    let of = |c: &usize| recording.columns[*c].name.as_str();
     let row = if Kind::of(&name) == Some(Kind::Csv) { "line" } else { "row" };
-    let names = Names {
-        arm: &arm,
-        columns: columns.iter().map(String::as_str).collect(),
-        first_row: table.first_row,
-        row,
-    };
-    let listed = |columns: &[usize]| columns.iter().map(of).collect();
-    let told = wire::Roles {
-        joints: listed(&roles.joints),
-        position: listed(&roles.position),
-        rotation: listed(&roles.rotation),
-        time: roles.time.map(|c| of(&c)),
-    };
+    let names =
+        Names { arm: &arm, columns: roles.joints.iter().map(of).collect(), first_row: table.first_row, row };
     let mut views = vec![];
     views.extend(view(subject, &recording, &roles, &held.recipe, &arm, "with all of it undone"));
     if !held.findings.is_empty() {
-        let mut plain = Recipe::plain(&recording, &roles, &arm);
-        plain.format = held.recipe.format;
-        views.extend(view(subject, &recording, &roles, &plain, &arm, "as the columns stand"));
+        let stand = held.as_columns_stand(&recording, &roles, &arm);
+        views.extend(view(subject, &recording, &roles, &stand, &arm, "as the columns stand"));
     }
     Ok(Answer {
         fixed: held.is_understood.then(|| written(&recording, &roles, &held, &arm)),
         lines: lines(&held, &names),
-        recorded: wire::Recorded::of(&name, &subject.description.name, &held, told, &names),
+        recorded: wire::Recorded::of(
+            &name,
+            &subject.description.name,
+            &held,
+            wire::Roles::of(&recording, &roles),
+            &names,
+        ),
         remarks: table.remarks,
         views,
     })

@@ -56,6 +56,20 @@ pub struct Roles {
     pub time: Option<String>,
 }
 
+impl Roles {
+    /// By the numbers of the columns.
+    pub fn of(recording: &recording::Recording, roles: &recording::Roles) -> Self {
+        let name = |&c: &usize| recording.columns[c].name.clone();
+        let listed = |columns: &[usize]| columns.iter().map(name).collect();
+        Roles {
+            joints: listed(&roles.joints),
+            position: listed(&roles.position),
+            rotation: listed(&roles.rotation),
+            time: roles.time.as_ref().map(name),
+        }
+    }
+}
+
 /// How far the hand is off, root mean squares.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
 pub struct Off {

@@ -170,20 +170,21 @@ impl Walk<'_> {
         }
     }
 
-    /// Where a matrix of the document's own is told again under another heading, by none of them, another problem begins: what
-    /// was made of the links before has no meaning any more. `U = T`, where `U = T Trans(x, -a_2)` before.
+    /// In a document with links of its own: where a matrix that it names is told again under another heading, by none that it names,
+    /// another problem begins, and what was made of the links before has no meaning any more. `U = T`, where `U = T Trans(x, -a_2)` before.
     fn begin_again(&mut self, statement: &Statement) {
         let [left, right] = &statement.sides[..] else { return };
         let Some(name) = self.lone(left) else { return };
-        // Links of a document's own, and what it makes of them.
         let has_own_links = self.lexis.habits.products.iter().any(|key| !key.starts_with('T'));
-        let is_own = |name: &Name| self.named_under.contains_key(&name.key());
         let is_elsewhere =
             || self.named_under.get(&name.key()).is_some_and(|under| *under != statement.heading);
-        let is_told = matches!(right.parts[..], [Part::Text(_)])
-            && !order::names(self.text, right).iter().any(is_own)
-            && product(self.text, right, &self.lexis, &self.subject, &|_| None).is_ok();
-        if has_own_links && self.lexis.has_defined(&name) && is_elsewhere() && is_told {
+        let is_named = |name: &Name| self.named_under.contains_key(&name.key());
+        let is_told = || {
+            matches!(right.parts[..], [Part::Text(_)])
+                && !order::names(self.text, right).iter().any(is_named)
+                && product(self.text, right, &self.lexis, &self.subject, &|_| None).is_ok()
+        };
+        if has_own_links && is_elsewhere() && is_told() {
             self.lexis.forget_frames();
             self.named_under.clear();
         }

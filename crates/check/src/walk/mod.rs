@@ -191,7 +191,7 @@ pub(super) struct Walk<'a> {
     printed_last: Option<(Matrix, usize)>,
     /// The statement before which another one is read.
     reader: Option<usize>,
-    /// The headings under which they stand.
+    /// Under which heading each matrix has its name from.
     named_under: BTreeMap<String, Option<Range<usize>>>,
     /// The prose and the heading that were looked at last.
     last_prose: Range<usize>,

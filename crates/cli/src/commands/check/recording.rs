@@ -123,13 +123,7 @@ pub fn run(arguments: &CheckArguments, name: &str, table: Table) -> Result<(), F
 
     let mut out = anstream::stdout();
     if arguments.json {
-        let listed = |columns: &[usize]| columns.iter().map(|c| of(c).to_string()).collect();
-        let roles = wire::Roles {
-            joints: listed(&roles.joints),
-            position: listed(&roles.position),
-            rotation: listed(&roles.rotation),
-            time: roles.time.map(|c| of(&c).to_string()),
-        };
+        let roles = wire::Roles::of(&recording, &roles);
         writeln!(
             out,
             "{}",

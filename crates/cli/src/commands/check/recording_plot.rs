@@ -10,9 +10,6 @@ const POINTS: usize = 1_500;
 
 /// A drawing of the distances and angles; with findings those of the columns as they stand come first.
 pub fn picture(title: &str, recording: &Recording, roles: &Roles, held: &Held, arm: &Arm) -> String {
-    let mut as_they_stand = Recipe::plain(recording, roles, arm);
-    // What the orientation is written in is no slip.
-    as_they_stand.format = held.recipe.format;
     let (times, across) = match seconds(recording, roles) {
         Some(times) => (times, Label::symbol("t", "").and(Label::words(" / s"))),
         None => ((0..held.rows[0]).map(|r| r as f64).collect(), Label::words("row")),
@@ -30,6 +27,7 @@ pub fn picture(title: &str, recording: &Recording, roles: &Roles, held: &Held, a
     let panels: Vec<Panel> = match held.findings.is_empty() {
         true => panels_of(&held.recipe, "").into(),
         false => {
+            let as_they_stand = held.as_columns_stand(recording, roles, arm);
             let before = panels_of(&as_they_stand, ", as the columns stand");
             before.into_iter().chain(panels_of(&held.recipe, ", with all of it undone")).collect()
         }
