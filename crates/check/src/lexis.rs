@@ -228,10 +228,15 @@ impl Lexis {
         }
     }
 
-    /// Forgets the transforms that the document defines.
-    pub fn forget_frames(&mut self) {
-        self.matrices.retain(|_, (_, about)| matches!(about, Some(Meaning::Jacobian(_) | Meaning::Torques)));
-        self.posed.clear();
+    /// Forgets a transform that the document defines.
+    pub fn forget_frame(&mut self, key: &str) {
+        let is_frame = |(_, about): &(Matrix, Option<Meaning>)| {
+            !matches!(about, Some(Meaning::Jacobian(_) | Meaning::Torques))
+        };
+        if self.matrices.get(key).is_some_and(is_frame) {
+            self.matrices.remove(key);
+        }
+        self.posed.remove(key);
     }
 
     /// What a matrix of the document is in the entries of the pose, if that is known.

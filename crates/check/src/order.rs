@@ -84,11 +84,19 @@ fn own_matrices(text: &str, statements: &[Statement], at: usize, habits: &Habits
         },
         _ => None,
     };
-    let known: BTreeSet<String> = statements[..at].iter().filter_map(defined).collect();
-    let is_meant = |s: &Statement| {
-        defined(s).is_some_and(|key| s.heading == statements[at].heading || !known.contains(&key))
-    };
-    (at + 1..statements.len().min(at + AHEAD)).filter(|&k| is_meant(&statements[k])).collect()
+    let ahead = at + 1..statements.len().min(at + AHEAD);
+    let is_here = |k: &usize| statements[*k].heading == statements[at].heading;
+    let mut known: BTreeSet<String> = statements[..at].iter().filter_map(defined).collect();
+    let mut found: Vec<usize> = vec![];
+    for k in ahead.clone().filter(is_here).chain(ahead.filter(|k| !is_here(k))) {
+        let Some(key) = defined(&statements[k]) else { continue };
+        if is_here(&k) || known.insert(key.clone()) {
+            known.insert(key);
+            found.push(k);
+        }
+    }
+    found.sort_unstable();
+    found
 }
 
 /// The statements further down that define the names in the cells of a printed matrix: `J = [j_11 …]`, `j_11 = …`.

@@ -6,7 +6,6 @@ use crate::jacobians::told_of_jacobian;
 use crate::matrix::Matrix;
 use crate::names::{Name, Token, tokens};
 use crate::note::{Unread, Unreadable};
-use crate::order;
 use crate::product::{Factor, NotMatrices, Product, product};
 use denavit::forward::Reference as Frame;
 use denavit_reading::document::{Fence, Grid, Part, Place, Side, Statement, sides};
@@ -167,26 +166,6 @@ impl Walk<'_> {
                 Definition::Posed(name, matrix) => self.lexis.define_posed(&name, matrix),
                 Definition::Cell(name, value) => self.lexis.define(&name, value),
             }
-        }
-    }
-
-    /// In a document with links of its own: where a matrix that it names is told again under another heading, by none that it names,
-    /// another problem begins, and what was made of the links before has no meaning any more. `U = T`, where `U = T Trans(x, -a_2)` before.
-    fn begin_again(&mut self, statement: &Statement) {
-        let [left, right] = &statement.sides[..] else { return };
-        let Some(name) = self.lone(left) else { return };
-        let has_own_links = self.lexis.habits.products.iter().any(|key| !key.starts_with('T'));
-        let is_elsewhere =
-            || self.named_under.get(&name.key()).is_some_and(|under| *under != statement.heading);
-        let is_named = |name: &Name| self.named_under.contains_key(&name.key());
-        let is_told = || {
-            matches!(right.parts[..], [Part::Text(_)])
-                && !order::names(self.text, right).iter().any(is_named)
-                && product(self.text, right, &self.lexis, &self.subject, &|_| None).is_ok()
-        };
-        if has_own_links && is_elsewhere() && is_told() {
-            self.lexis.forget_frames();
-            self.named_under.clear();
         }
     }
 

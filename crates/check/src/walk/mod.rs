@@ -1,5 +1,6 @@
 //! From the statements of a document to pairs of formulas: what is printed, and what the robot makes of it.
 
+mod again;
 mod author;
 mod cases;
 mod compare;

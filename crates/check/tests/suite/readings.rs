@@ -6,6 +6,8 @@ use denavit_reading::document::Format;
 
 const PLANAR: &str = "DH parameters (standard)\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
                       | 2 | θ2 | 0 | a2 | 0 |\n\n";
+const PLANAR_Q: &str = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | q1 | 0 | a1 | 0 |\n\
+                        | 2 | q2 | 0 | a2 | 0 |\n\n";
 const THREE: &str = "convention: standard\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
                      | 2 | θ2 | 0 | a2 | 0 |\n| 3 | θ3 | 0 | a3 | 0 |\n\n";
 const SCARA: &str = "Standard-DH-Tabelle\n\n| i | θ | d | a | α |\n|---|---|---|---|---|\n| 1 | θ1 | 0 | a1 | 0 |\n\
@@ -280,4 +282,28 @@ fn lengths_in_millimetres_by_words() {
         all.claims
     );
     assert!(all.notes.iter().any(|n| n.what == Noted::InMillimetres));
+}
+
+/// A text may solve two problems with links of the same names: the second one's are told again, and judged by themselves.
+#[test]
+fn links_of_two_problems() {
+    let matrix = "$$U = \\begin{bmatrix} n_x & o_x & a_x & p_x \\\\ n_y & o_y & a_y & p_y \\\\ n_z & o_z & a_z & p_z \\\\ 0 & 0 & 0 & 1 \\end{bmatrix}$$";
+    let first = "$A_1(q_1) = \\operatorname{Rot}(z, q_1) \\operatorname{Trans}(x, a_1)$";
+    let document = |last: &str| {
+        format!(
+            "## Inverse kinematics\n\nGiven the pose T of the hand; sought q1, q2.\n\n$U = A_1 A_2$\n\n\
+             $U = T \\operatorname{{Trans}}(x, -a_2)$\n\n{first}\n\n$A_2(q_2) = \\operatorname{{Rot}}(z, q_2)$\n\n{matrix}\n\n\
+             $p_x = a_1 C_1$\n\n$p_y = a_1 S_1$\n\n$C_1 p_x + S_1 p_y = a_1$\n\n\
+             ## The position alone\n\nGiven the position of the hand; sought q1, q2. With $U = T$ the chain is\n\n$U = A_1 A_2$\n\n\
+             {first}\n\n$A_2(q_2) = \\operatorname{{Rot}}(z, q_2) \\operatorname{{Trans}}(x, a_2)$\n\n{matrix}\n\n\
+             $p_x = a_1 C_1 + a_2 C_{{12}}$\n\n{last}"
+        )
+    };
+    let wrong = |last: &str| -> Vec<String> {
+        let all = checked(PLANAR_Q, &document(last));
+        let wrong = all.claims.iter().filter(|c| matches!(c.standing(), Standing::Wrong | Standing::Carried));
+        wrong.map(|c| c.name.clone()).collect()
+    };
+    assert_eq!(wrong("$p_y = a_1 S_1 + a_2 S_{12}$"), Vec::<String>::new());
+    assert_eq!(wrong("$p_y = a_1 S_1 - a_2 S_{12}$"), ["p_y"]);
 }
